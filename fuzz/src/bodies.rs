@@ -62,6 +62,6 @@ fn outcomes(batch: &Batch<'_, Body>, alone: &[Option<Outcome>]) -> Option<Vec<Ou
     let counted = counted.expect("every toss has an outcome");
     let number = |of| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
     let expected = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(number);
-    assert_eq!([counted.heads(), counted.tails(), counted.ties()], expected);
+    assert_eq!([counted.heads, counted.tails, counted.undecided], expected);
     Some(outcomes)
 }

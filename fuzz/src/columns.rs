@@ -55,7 +55,7 @@ fn solved(tosses: Tosses<'_>, level: SimdLevel) -> Solved {
         outcomes: batch.outcomes(&mut outcomes).map(|()| outcomes).map_err(|error| error.to_string()),
         counted: batch
             .count()
-            .map(|counts| [counts.heads(), counts.tails(), counts.ties()])
+            .map(|counts| [counts.heads, counts.tails, counts.undecided])
             .map_err(|error| error.to_string()),
     }
 }

@@ -27,7 +27,7 @@ pub fn check(data: &[u8]) {
     };
     assert!(proven.points < MOST_CELLS, "{} cells of {space:?}", proven.points);
     let interval = proven.interval.expect("an enclosure has an interval");
-    let is_as_narrow = interval.hi - interval.lo <= 2.0 * ACCURACY || proven.is_wider_than_asked(plan);
+    let is_as_narrow = interval.hi - interval.lo <= 2.0 * ACCURACY || proven.is_wider_than_asked();
     assert!(0.0 <= interval.lo && interval.hi <= 1.0 && is_as_narrow, "{proven:?}");
     assert!(interval.lo <= proven.probability && proven.probability <= interval.hi, "{proven:?}");
     let seed = data.iter().fold(1_u64, |seed, byte| seed.wrapping_mul(31).wrapping_add(u64::from(*byte)));

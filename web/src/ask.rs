@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use toss::Error;
+use toss::{Error, report};
 
 use crate::failure::{not_understood, to_json};
 use crate::flight::Flight;
@@ -144,7 +144,10 @@ impl Page {
                 to_value(&map::map(&scene.thrown()?, &grid, &mut self.cells)?)
             }
             Question::Lines { scene, grid } => to_value(&line::lines(&scene.thrown()?, &grid)?),
-            Question::Hand { scene, spread } => to_value(&hand::probability(&scene.thrown()?, &spread)?),
+            Question::Hand { scene, spread } => {
+                let found = hand::probability(&scene.thrown()?, &spread)?;
+                to_value(&report::Estimate { found: &found, integrated: None })
+            }
             Question::Throws { scene, spread, number, seed } => {
                 to_value(&hand::throws(&scene.thrown()?, &spread, number, seed)?)
             }

@@ -1,8 +1,7 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, Drawn, HAND, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, Drawn, Estimate, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::report::{Estimate, Precision};
 use toss::{Error, InputError, Outcome, certify};
 
 use crate::thrown::{Thrown, malformed};
@@ -26,7 +25,7 @@ pub(crate) struct Throws {
 pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Estimate, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
     let plan = plan(&space);
-    Ok(Estimate::new(&Sampler::exact().sampled(&space, plan)?, plan))
+    Sampler::exact().sampled(&space, plan)
 }
 
 /// How `number` random throws land, with the spread of [`probability`].
@@ -48,10 +47,9 @@ pub(crate) fn throws(thrown: &Thrown, spread: &str, number: u64, seed: u64) -> R
 }
 
 /// The largest spread with which P(heads) is at least `heads`.
-pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
+pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<LargestSpread, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
-    let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
-    Ok(Precision::from(&found))
+    Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)
 }
 
 /// The most accurate plan for a space that spreads.

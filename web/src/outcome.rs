@@ -2,8 +2,8 @@
 //! The fields that the command line has too carry its names and digits.
 
 use serde::Serialize;
-use toss::report::{Landing, Margin};
-use toss::{CoinMotion, CoinToss, Error, ExactMotion, Registry, Settings, TimeOfFlight, certify};
+use toss::report::Landing;
+use toss::{CoinMotion, CoinToss, Error, ExactMotion, Margin, Registry, Settings, Stage, TimeOfFlight, margin};
 
 use crate::thrown::Thrown;
 
@@ -13,7 +13,7 @@ pub(crate) struct Outcome {
     #[serde(flatten)]
     landing: Landing,
     /// The stage of the proof that decided.
-    stage: &'static str,
+    stage: Option<&'static str>,
     /// Heights are above the launch (m); `None` if the time of flight was given.
     apex: Option<f64>,
     input: Input,
@@ -52,9 +52,12 @@ struct Precession {
 pub(crate) fn answer(thrown: &Thrown) -> Result<Outcome, Error> {
     let (toss, coin) = (&thrown.toss, thrown.coin());
     let exact = Registry::standard().backend("exact", &Settings::default())?;
+    let landing = Landing::new(toss, &exact)?;
+    let landing = if coin.is_some() { landing.with_margin(toss)? } else { landing };
+    let landing = landing.rounded(toss, &thrown.rounding)?;
     Ok(Outcome {
-        landing: Landing::new(toss, &exact, false)?.rounded(toss, &thrown.rounding)?,
-        stage: certify(toss)?.stage().name(),
+        stage: landing.stage.map(Stage::name),
+        landing,
         apex: thrown.thrown_up().map(|(speed, gravity, _)| speed * speed / (2.0 * gravity)),
         input: Input::new(thrown),
         motion: coin.as_ref().map(Precession::new),
@@ -64,7 +67,7 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Outcome, Error> {
 
 /// The nearest flip in each input. For a body with I1 ≠ I2 the search takes up to some seconds.
 pub(crate) fn margins(thrown: &Thrown) -> Result<Margin, Error> {
-    Ok(Margin::new(&thrown.toss)?)
+    Ok(margin(&thrown.toss)?)
 }
 
 impl Input {

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
 use crate::given::{count, number, optional_number};
-use crate::launches::{Common, Counts, Launches, NOTHING, added};
+use crate::launches::{Common, Counts, Launches, added};
 use crate::solver::backend_of;
 use crate::threads::{self, A_CALL, A_PROOF};
 use crate::toss::{attitude_of, components_of};
@@ -101,7 +101,7 @@ impl Batch {
         self.write(py, &columns, out, first, &Asked { width: 4, a_call: A_CALL, solve })
     }
 
-    /// Counts the outcomes.
+    /// Counts the outcomes: heads, tails, undecided, without a proof, and by the stage of the proof.
     fn count(&self, py: Python<'_>, columns: Vec<Column<'_>>, first: u64) -> PyResult<Counts> {
         let columns = borrowed(&columns)?;
         let launches = self.launches(&columns, first)?;
@@ -115,12 +115,12 @@ impl Batch {
                 threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&own, range))
             })?
         };
-        Ok(counts.into_iter().fold(NOTHING, added))
+        Ok(counts.into_iter().fold(Counts::default(), added))
     }
 }
 
 fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
-    launches.runs(range).try_fold(NOTHING, |sum, run| Ok(added(sum, launches.count(run)?)))
+    launches.runs(range).try_fold(Counts::default(), |sum, run| Ok(added(sum, launches.count(run)?)))
 }
 
 /// Writes what is found of the launches in a range, of those in a row at once that differ in rates and speeds only.

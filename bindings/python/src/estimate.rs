@@ -1,9 +1,8 @@
-//! Estimates of probabilities, as plain values.
+//! Estimates of probabilities.
 
-use ::toss::planner::How;
-use ::toss::report::Estimate;
-use ::toss::sampling::{self, Space};
-use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Want};
+use ::toss::sampling::{self, Counts, Found, Space};
+use ::toss::{Answer, Backend, InputError, Registry, Scene, Want};
+use exact::STAGES;
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
@@ -13,16 +12,48 @@ use crate::space::space_of;
 use crate::threads;
 use crate::threads::threads_of;
 
-/// Values of an estimate: the probability, its interval and what that means, the number of launches, the counts of heads,
-/// tails and undecided, where they were counted, and by stage of the proof, where they are proven.
-pub(crate) type Values =
-    (Option<f64>, Option<(f64, f64)>, String, u64, Option<(u64, u64, u64)>, Option<Vec<(&'static str, u64)>>);
+/// The fields of `unfair_toss.Estimate`.
+#[derive(IntoPyObject)]
+pub(crate) struct Estimate {
+    probability: Option<f64>,
+    interval: Option<(f64, f64)>,
+    interval_kind: String,
+    points: u64,
+    heads: Option<u64>,
+    tails: Option<u64>,
+    undecided: Option<u64>,
+    certified: bool,
+    proven_by: Option<Stages>,
+    plan: Plan,
+}
 
-/// The values of an estimate that `plan` has `found`.
-pub(crate) fn values(found: &sampling::Estimate, plan: sampling::Plan) -> Values {
-    let Estimate { probability, interval, interval_kind, points, counts, proven_by, .. } = Estimate::new(found, plan);
-    let counts = counts.map(|counts| (counts.heads(), counts.tails(), counts.undecided()));
-    (probability, interval.map(Into::into), interval_kind, points, counts, proven_by)
+/// The numbers of proven outcomes by the stage of the proof.
+#[derive(IntoPyObject)]
+struct Stages {
+    f64: u64,
+    double_double: u64,
+    multiprecision: u64,
+}
+
+impl From<&sampling::Estimate> for Estimate {
+    fn from(found: &sampling::Estimate) -> Self {
+        let counts = if let Found::Counts(counts) = found.found { Some(counts) } else { None };
+        let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven());
+        let by_stage = proven.map(|counts| STAGES.map(|stage| counts.by(stage)));
+        let stages = |[f64, double_double, multiprecision]: [u64; 3]| Stages { f64, double_double, multiprecision };
+        Self {
+            probability: found.is_known().then_some(found.probability),
+            interval: found.interval.map(|interval| <[f64; 2]>::from(interval).into()),
+            interval_kind: found.interval_in_words(),
+            points: found.points,
+            heads: counts.map(|counts| counts.heads()),
+            tails: counts.map(|counts| counts.tails()),
+            undecided: counts.map(|counts| counts.undecided()),
+            certified: proven.is_some(),
+            proven_by: by_stage.map(stages),
+            plan: found.plan.into(),
+        }
+    }
 }
 
 /// The estimate of a plan, with outcomes by a solver.
@@ -33,32 +64,30 @@ pub(crate) fn estimate_by_solver(
     #[pyo3(from_py_with = plan_of)] plan: sampling::Plan,
     solver: &Bound<'_, PyAny>,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
-) -> PyResult<Values> {
+) -> PyResult<Estimate> {
     let (backend, pool): (Backend, _) = (backend_of(solver)?, threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();
         Ok(pool.install(|| backend.sampler().on_progress(&progress).estimate(&space, plan))?)
     });
-    Ok(values(&found?, plan))
+    Ok((&found?).into())
 }
 
-/// The estimate by the plan that is cheapest for an error, and that plan.
+/// The estimate by the plan that is cheapest for an error.
 #[pyfunction]
 pub(crate) fn estimate_by_accuracy(
     py: Python<'_>,
     #[pyo3(from_py_with = space_of)] space: Space,
     #[pyo3(from_py_with = accuracy)] accuracy: f64,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
-) -> PyResult<(Values, Plan)> {
+) -> PyResult<Estimate> {
     let (scene, pool) = (Scene::new(Want::Probability(space), accuracy), threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();
         Ok(pool.install(|| scene.choose_and_run(Registry::standard(), &progress))?)
     });
     match found? {
-        (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => {
-            Ok((values(&found, plan), plan.into()))
-        }
+        (_, Answer::Probability(found)) => Ok((&*found).into()),
         _ => {
             let why = "the plan for this space is no sample";
             Err(Failure::from(InputError::OutsideModel { field: "accuracy", why }).into())

@@ -7,10 +7,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use ::toss::{
-    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, Stage, TimeOfFlight,
-    Toss, Tosses, Verdict, certify,
+    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss,
+    Tosses, Verdict, certify,
 };
 use dynamics::error::require;
+use exact::STAGES;
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -22,16 +23,12 @@ const BLOCK: usize = 512;
 /// Launches whose conditions are compared at a time.
 const COMPARED: usize = 64;
 
-/// Counts of outcomes: heads, tails, undecided, and by stage of the proof where they are proven.
-pub(crate) type Counts = (u64, u64, u64, Option<[u64; Stage::ALL.len()]>);
+/// Counts of outcomes: heads, tails, undecided, of these all without a proof, and by the stage of the proof.
+pub(crate) type Counts = [u64; 4 + STAGES.len()];
 
-/// The counts of no launches.
-pub(crate) const NOTHING: Counts = (0, 0, 0, Some([0; Stage::ALL.len()]));
-
-/// The sum of counts; it is proven if both are.
+/// The sum of counts.
 pub(crate) fn added(one: Counts, two: Counts) -> Counts {
-    let stages = one.3.zip(two.3).map(|(one, two)| std::array::from_fn(|stage| one[stage] + two[stage]));
-    (one.0 + two.0, one.1 + two.1, one.2 + two.2, stages)
+    std::array::from_fn(|part| one[part] + two[part])
 }
 
 /// What the launches of some columns have in common.
@@ -258,13 +255,15 @@ impl Launches<'_> {
     /// Counts the outcomes; they are proven unless a solver estimates them.
     pub(crate) fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
         if self.of.decides_one_by_one() {
-            let mut sum = NOTHING;
+            let mut sum = Counts::default();
             self.each(range, |_, _, toss| {
                 let verdict = self.of.verdict(toss)?;
                 let is = |face| u64::from(verdict.outcome() == face);
                 let by = |stage| u64::from(verdict.stage() == Some(stage));
-                let stages = verdict.is_proven().then(|| Stage::ALL.map(by));
-                sum = added(sum, (is(Outcome::Heads), is(Outcome::Tails), is(Outcome::Undecided), stages));
+                let [f64, double_double, more] = STAGES.map(by);
+                let [heads, tails, undecided] = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(is);
+                let without_proof = u64::from(!verdict.is_proven());
+                sum = added(sum, [heads, tails, undecided, without_proof, f64, double_double, more]);
                 Ok(())
             })?;
             return Ok(sum);
@@ -275,8 +274,8 @@ impl Launches<'_> {
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
         };
         let counts = counts.map_err(|error| self.failed(start, error))?;
-        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
-        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
+        let [f64, double_double, more] = STAGES.map(|stage| counts.by(stage));
+        Ok([counts.heads, counts.tails, counts.undecided, counts.without_proof, f64, double_double, more])
     }
 }
 

@@ -1,6 +1,6 @@
 //! The planner: which model answers a question at the least cost.
 
-use ::toss::report::Planned;
+use ::toss::planner::Decision;
 use ::toss::{Scene, Want};
 use pyo3::prelude::*;
 
@@ -11,18 +11,19 @@ use crate::space::Space;
 use crate::threads;
 use crate::toss::Toss;
 
-/// Values of a choice: the model, the solver and its scheme, the method of a sample, the tolerance of an integrator, the
-/// launches of a sample, the expected error and cost (ns), and what was passed over and why.
-type Values = (
-    &'static str,
-    String,
-    Option<&'static str>,
-    Option<&'static str>,
-    Option<f64>,
-    Option<u64>,
-    (f64, f64),
-    Vec<(String, String)>,
-);
+/// The fields of `unfair_toss.Choice`.
+#[derive(IntoPyObject)]
+pub(crate) struct Choice {
+    model: &'static str,
+    solver: String,
+    scheme: Option<&'static str>,
+    method: Option<&'static str>,
+    tolerance: Option<f64>,
+    points: Option<u64>,
+    expected_error: f64,
+    expected_cost_ns: f64,
+    passed_over: Vec<(String, String)>,
+}
 
 /// The cheapest model for a question.
 #[pyfunction]
@@ -34,7 +35,7 @@ pub(crate) fn plan(
     points: Option<&Bound<'_, PyAny>>,
     solver: Option<&Bound<'_, PyAny>>,
     scheme: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Values> {
+) -> PyResult<Choice> {
     let want = text("want", want, "outcome, tilt, attitude, trace or probability")?;
     let solver = solver.map(|solver| text("solver", solver, "the name of a solver")).transpose()?;
     let scheme = scheme.map(|scheme| text("scheme", scheme, "the name of a scheme")).transpose()?;
@@ -45,12 +46,18 @@ pub(crate) fn plan(
         (None, Some(scheme)) => return Err(malformed("scheme", scheme, "a solver with it")),
         (None, None) => {}
     }
-    let asked = scene.clone();
-    let decision = threads::aside(py, move |_| Ok(asked.plan()?))?;
-    let planned = Planned::new(&scene, &decision);
-    let Planned { model, solver, scheme, method, tolerance, points, expected_error, expected_cost_ns, .. } = planned;
-    let passed_over = planned.passed_over.into_iter().map(|other| (other.model, other.why)).collect();
-    Ok((model, solver, scheme, method, tolerance, points, (expected_error, expected_cost_ns), passed_over))
+    let Decision { choice, passed_over } = threads::aside(py, move |_| Ok(scene.plan()?))?;
+    Ok(Choice {
+        model: choice.model.name,
+        solver: choice.solver().to_owned(),
+        scheme: choice.scheme(),
+        method: choice.method(),
+        tolerance: choice.tolerance(),
+        points: choice.points,
+        expected_error: choice.expected_error,
+        expected_cost_ns: choice.expected_cost_ns,
+        passed_over: passed_over.iter().map(|(other, why)| (other.to_string(), why.to_string())).collect(),
+    })
 }
 
 /// What may be wanted.

@@ -1,12 +1,13 @@
-//! What is asked of one toss. Each function returns plain values, from which the Python layer makes a result.
+//! What is asked of one toss. A struct becomes a dict, from which the Python layer makes the result of the same fields.
 
 use std::f64::consts::TAU;
 
-use ::toss::sampling::{Cone, Interval, SameSide, Wobble, long_flight_cone, rate_ratio};
+use ::toss::report;
+use ::toss::sampling::{Cone, Interval, SameSide, Spread, Wobble, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
 use ::toss::{
-    Backend, ExactMotion, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR, TimeOfFlight, Toss,
-    TracePoint, Work, certify, margin, speeds_of_heads,
+    Backend, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
+    TimeOfFlight, Toss, Work, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
 use numpy::{PyArray2, PyReadonlyArray1};
@@ -26,15 +27,36 @@ const SHORT: f64 = 1e4;
 /// The largest number of turns for which intervals are listed, with one interval each.
 const MOST_TURNS: f64 = 10_000.0;
 
-/// Values of a landing: cos θ, outcome, whether it is proven and by which stage, attitude, body rate, norm error, error
-/// estimate of cos θ, calls, accepted and rejected steps, and the names of solver and scheme.
-type Landing = (
-    (f64, &'static str, Option<&'static str>),
-    ([f64; 4], [f64; 3]),
-    (f64, Option<f64>),
-    (u64, u64, u64),
-    (String, Option<&'static str>),
-);
+/// The fields of `unfair_toss.Landing`.
+#[derive(IntoPyObject)]
+pub(crate) struct Landing {
+    outcome: &'static str,
+    certified: bool,
+    proven_by: Option<&'static str>,
+    cos_tilt: f64,
+    attitude: [f64; 4],
+    rate: [f64; 3],
+    flight_time: f64,
+    norm_error: f64,
+    error_estimate: Option<f64>,
+    solver: String,
+    scheme: Option<&'static str>,
+    work: Cost,
+}
+
+/// The fields of `unfair_toss.Work`.
+#[derive(IntoPyObject)]
+pub(crate) struct Cost {
+    rhs_calls: u64,
+    accepted_steps: u64,
+    rejected_steps: u64,
+}
+
+impl From<Work> for Cost {
+    fn from(Work { rhs_calls, accepted_steps, rejected_steps }: Work) -> Self {
+        Self { rhs_calls, accepted_steps, rejected_steps }
+    }
+}
 
 /// The landing of a toss by a solver.
 #[pyfunction]
@@ -64,39 +86,43 @@ fn is_short(backend: &Backend, toss: &Toss) -> bool {
 }
 
 fn landing(backend: &Backend, toss: &Toss) -> Result<Landing, Failure> {
-    let solver = backend.solver();
-    let landing = solver.land(toss)?;
-    let (outcome, stage, estimate) = match backend {
-        Backend::Exact(_) => {
-            let certificate = certify(toss)?;
-            let stage = certificate.is_proven().then(|| certificate.stage().name());
-            (certificate.outcome(), stage, landing.error.map(of_state))
-        }
-        Backend::Solver(_) => (landing.outcome(), None, landing.error),
-    };
-    let Work { rhs_calls, accepted_steps, rejected_steps } = landing.work;
-    let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
-    // The program prints no sign of a 0, either.
-    let attitude = landing.state.attitude.components().map(|part| part + 0.0);
-    Ok((
-        (landing.cos_tilt + 0.0, outcome.name(), stage),
-        (attitude, landing.state.rate.into()),
-        (landing.norm_error, estimate),
-        (rhs_calls, accepted_steps, rejected_steps),
-        (solver.name().to_owned(), scheme),
-    ))
+    let found = report::Landing::new(toss, backend)?;
+    let is_exact = matches!(backend, Backend::Exact(_));
+    Ok(Landing {
+        outcome: found.outcome.name(),
+        certified: found.certified,
+        proven_by: found.stage.filter(|_| found.certified).map(Stage::name),
+        cos_tilt: found.cos_tilt,
+        attitude: found.attitude,
+        rate: found.rate,
+        flight_time: found.flight_time,
+        norm_error: found.norm_error,
+        error_estimate: found.error_estimate.map(|error| if is_exact { of_state(error) } else { error }),
+        solver: found.solver,
+        scheme: found.scheme,
+        work: found.work.into(),
+    })
 }
 
-/// Margins of the time of flight, the speed, gravity and the tilt; of the rates; and the ranges of rates and of earlier and
-/// later times that were searched.
-type Margins = ([Option<f64>; 4], [Option<f64>; 3], [f64; 3], [f64; 2]);
+/// The fields of `unfair_toss.Margins`.
+#[derive(IntoPyObject)]
+pub(crate) struct Margins {
+    time: Option<f64>,
+    speed: Option<f64>,
+    gravity: Option<f64>,
+    tilt: Option<f64>,
+    rate: (Option<f64>, Option<f64>, Option<f64>),
+    rate_range: (f64, f64, f64),
+    time_range: Ends,
+}
 
 /// The nearest values that land the other way.
 #[pyfunction]
 pub(crate) fn margins(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: Toss) -> PyResult<Margins> {
     let found = threads::aside(py, move |_| Ok(margin(&toss)?))?;
     let Margin { time, speed, gravity, tilt, rate, rate_range, time_range } = found;
-    Ok(([time, speed, gravity, tilt], rate, rate_range, time_range))
+    let time_range = time_range.unwrap_or([f64::INFINITY; 2]).into();
+    Ok(Margins { time, speed, gravity, tilt, rate: rate.into(), rate_range: rate_range.into(), time_range })
 }
 
 /// The ranges of speed from `slowest` to that of the toss that land heads (m/s).
@@ -148,17 +174,34 @@ pub(crate) fn rate_of_precession(
     Ok((rate.x, rate.y, rate.z))
 }
 
-/// Values of a wobble: the counts of all people; their share, and its interval for these flips; the mean over people with its
-/// interval and what that means; the spread as deviation, interval, X² and p-value; the interval of a further person; k and
-/// Ω/ωz; ψ with its interval; and these of each person alone, NaN where no wobble explains the counts.
-type Wobbled = (
-    ((u64, u64), (f64, Ends)),
-    (f64, Ends, String),
-    (Option<(f64, Ends, f64, f64)>, Option<Ends>),
-    (f64, Option<f64>),
-    Option<(f64, Ends)>,
-    Vec<[f64; 3]>,
-);
+/// The fields of `unfair_toss.Wobble`. Of a person whom no wobble explains, the angles are NaN.
+#[derive(IntoPyObject)]
+pub(crate) struct Wobbled {
+    same_side: u64,
+    tosses: u64,
+    probability: f64,
+    these_flips: Ends,
+    mean_over_people: f64,
+    interval: Ends,
+    interval_kind: String,
+    spread: Option<PeopleSpread>,
+    next_person: Option<Ends>,
+    inertia_ratio: f64,
+    rate_ratio: Option<f64>,
+    cone_angle: Option<f64>,
+    cone_angle_interval: Option<Ends>,
+    each_cone_angle: Vec<f64>,
+    each_cone_angle_interval: Vec<[f64; 2]>,
+}
+
+/// The fields of `unfair_toss.PeopleSpread`.
+#[derive(IntoPyObject)]
+struct PeopleSpread {
+    sd: f64,
+    interval: Ends,
+    chi2: f64,
+    p_value: f64,
+}
 
 /// The ends of an interval.
 type Ends = (f64, f64);
@@ -186,22 +229,30 @@ pub(crate) fn wobble(
     let people = (0..).zip(same.into_iter().zip(of)).map(person).collect::<Result<Vec<_>, _>>()?;
     let given = people.clone();
     let found = threads::aside(py, move |_| Ok(Wobble::of(&given)?))?;
-    let k = coin.inertia_ratio();
-    let ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, k)).transpose().map_err(Failure::from)?;
-    let ends = |interval: Interval| (interval.lo, interval.hi);
-    let alone = |person| {
-        let cone = Wobble::of(&[person]).ok().and_then(|one| one.cone);
-        cone.map_or([f64::NAN; 3], |Cone { angle, interval: [least, most] }| [angle, least, most])
-    };
-    let spread = found.spread.map(|spread| (spread.sd, ends(spread.interval), spread.chi2, spread.p_value));
-    Ok((
-        ((found.counts.same(), found.counts.tosses()), (found.share, ends(found.these_flips))),
-        (found.mean, ends(found.interval), found.interval_kind),
-        (spread, found.next_person.map(ends)),
-        (k, ratio),
-        found.cone.map(|cone| (cone.angle, cone.interval.into())),
-        people.into_iter().map(alone).collect(),
-    ))
+    let inertia_ratio = coin.inertia_ratio();
+    let ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose();
+    let ends = |interval: Interval| <[f64; 2]>::from(interval).into();
+    let unexplained = Cone { angle: f64::NAN, interval: [f64::NAN; 2] };
+    let alone = |person| Wobble::of(&[person]).ok().and_then(|one| one.cone).unwrap_or(unexplained);
+    let each = people.into_iter().map(alone);
+    let spread = |Spread { sd, interval, chi2, p_value }| PeopleSpread { sd, interval: ends(interval), chi2, p_value };
+    Ok(Wobbled {
+        same_side: found.counts.same(),
+        tosses: found.counts.tosses(),
+        probability: found.share,
+        these_flips: ends(found.these_flips),
+        mean_over_people: found.mean,
+        interval: ends(found.interval),
+        interval_kind: found.interval_kind,
+        spread: found.spread.map(spread),
+        next_person: found.next_person.map(ends),
+        inertia_ratio,
+        rate_ratio: ratio.map_err(Failure::from)?,
+        cone_angle: found.cone.map(|cone| cone.angle),
+        cone_angle_interval: found.cone.map(|cone| cone.interval.into()),
+        each_cone_angle: each.clone().map(|cone| cone.angle).collect(),
+        each_cone_angle_interval: each.map(|cone| cone.interval).collect(),
+    })
 }
 
 /// A row of numbers for each time.
@@ -229,7 +280,7 @@ pub(crate) fn trace<'py>(
             (None, dt) => Ok(trace_every(&solver, &toss, dt.unwrap_or(toss.launch.flight_time()))?),
         }
     })?;
-    let rows: Vec<Vec<f64>> = flight.iter().map(row).collect();
+    let rows: Vec<Vec<f64>> = flight.iter().map(|point| point.numbers().into()).collect();
     Ok(PyArray2::from_vec2(py, &rows)?)
 }
 
@@ -254,19 +305,8 @@ impl Solver for Stopping<'_> {
     }
 }
 
-/// The numbers of a point, without signs of 0, as the program prints them.
-fn row(point: &TracePoint) -> Vec<f64> {
-    let TracePoint { time, attitude, angles, normal, face, cos_tilt } = point;
-    let mut row = vec![*time];
-    row.extend(attitude.components());
-    row.extend([angles.alpha, angles.beta, angles.gamma]);
-    row.extend(normal.iter().chain(face.iter()));
-    row.push(*cos_tilt);
-    row.into_iter().map(|number| number + 0.0).collect()
-}
-
-/// Attitude and rate at each time as a column of 7, calls, accepted and rejected steps, and the error estimate at landing.
-type Solution<'py> = (Rows<'py>, (u64, u64, u64), Option<f64>);
+/// Attitude and rate at each time as a column of 7, the cost, and the error estimate at landing.
+type Solution<'py> = (Rows<'py>, Cost, Option<f64>);
 
 /// Attitude and rate at ascending times from launch to landing.
 #[pyfunction]
@@ -282,7 +322,7 @@ pub(crate) fn solve<'py>(
     let quaternion = |row: usize| states.iter().map(|state| state.attitude.components()[row]).collect();
     let rate = |row: usize| states.iter().map(|state| state.rate[row]).collect();
     let rows: Vec<Vec<f64>> = (0..4).map(quaternion).chain((0..3).map(rate)).collect();
-    Ok((PyArray2::from_vec2(py, &rows)?, (work.rhs_calls, work.accepted_steps, work.rejected_steps), estimate))
+    Ok((PyArray2::from_vec2(py, &rows)?, work.into(), estimate))
 }
 
 /// The states at `times`, the work, and the error estimate at landing.

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
-use crate::estimate::{Values, values};
+use crate::estimate::Estimate;
 use crate::given;
 use crate::plans::{Plan, plan_of};
 use crate::space::{Space, space_of};
@@ -65,9 +65,9 @@ impl Tally {
         Ok(Self { tally: read.map_err(|error| malformed("text", error, "a part of an estimate as JSON"))? })
     }
 
-    /// The values of the estimate from a tally of all launches.
-    fn _estimate(&self) -> PyResult<Values> {
-        Ok(values(&self.tally.estimate().map_err(Failure::from)?, self.tally.plan()))
+    /// The fields of the estimate from a tally of all launches.
+    fn _estimate(&self) -> PyResult<Estimate> {
+        Ok((&self.tally.estimate().map_err(Failure::from)?).into())
     }
 
     fn __repr__(&self) -> PyResult<String> {

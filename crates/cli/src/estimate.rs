@@ -1,7 +1,7 @@
 //! An estimate of P(heads) as text, of one run or of parts that were merged.
 
 use sampling::{Estimate, Found, Interval, IntervalKind};
-use toss::Stage;
+use toss::STAGES;
 
 /// An estimate as text.
 pub(crate) fn text(found: &Estimate, solver: &str) -> String {
@@ -36,7 +36,7 @@ pub(crate) fn text(found: &Estimate, solver: &str) -> String {
     if let Found::Counts(counts) = found.found
         && counts.are_certified()
     {
-        let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.proven().by(stage)));
+        let stages = STAGES.map(|stage| format!("{stage} {}", counts.proven().by(stage)));
         lines.push(format!("proven by    {}", stages.join(", ")));
     }
     lines.join("\n")

@@ -13,7 +13,7 @@
 //! | a toss as plain data in a file, many tosses as columns of numbers | [`data`], [`columns`] |
 //! | Euler's equations and what they conserve; how far a motion turns | [`body_rate`], [`phase`] |
 //! | the attitude as a quaternion and as Euler angles | [`attitude`], [`euler_angles`] |
-//! | heads or tails | [`outcome`] |
+//! | heads or tails, and numbers of them | [`outcome`], [`counts`] |
 //! | the solver trait, the check of a solver's answers, solvers by name | [`solver`], [`checked`], [`entry`], [`config`] |
 //! | how integrators step | [`scheme`], [`stepping`], [`formulation`], [`flight`], [`integrate`] |
 //! | a function or a stepper from elsewhere as a solver | [`adapter`], [`free_rotation`] |
@@ -57,6 +57,7 @@ pub mod checked;
 pub mod coin;
 pub mod columns;
 pub mod config;
+pub mod counts;
 pub mod data;
 pub mod entry;
 pub mod error;
@@ -87,6 +88,7 @@ pub use checked::Checked;
 pub use coin::Coin;
 pub use columns::Tosses;
 pub use config::SolverConfig;
+pub use counts::{Counts, Stage};
 pub use entry::{Settings, SolverEntry};
 pub use error::{Fault, InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;

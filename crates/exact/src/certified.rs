@@ -45,10 +45,10 @@
 //! see `multiprecision.rs`.
 
 use dynamics::phase::LARGEST_PHASE;
-use dynamics::{Attitude, CoinToss, Outcome, SolveError};
+use dynamics::{Attitude, CoinToss, Outcome, SolveError, Stage};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
-use crate::certificate::{Certificate, Stage};
+use crate::certificate::Certificate;
 use crate::given::in_double_double;
 use crate::motion::{CoinMotion, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
@@ -166,7 +166,7 @@ fn with_more_digits(toss: &CoinToss) -> Result<Certificate, SolveError> {
     CoinMotion::new(toss).phase(toss.launch.time_of_flight())?;
     Ok(match cos_tilt_in_double_double(toss).filter(Ball::has_sign) {
         Some(cos_tilt) => Certificate::new(Outcome::of(cos_tilt.sign(), 0.0), Stage::DoubleDouble),
-        None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
+        None => Certificate::new(by_multiprecision(toss), Stage::MoreDigits),
     })
 }
 

@@ -34,7 +34,7 @@ pub mod solver;
 pub mod tilt_terms;
 
 pub use batch::{Batch, BodyFilter};
-pub use certificate::{Certificate, ProvenCounts, Stage};
+pub use certificate::{Certificate, ProvenCounts, STAGES};
 pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use heads::HeadsPhases;
 pub use margin::{Margin, level_speeds_of_heads};

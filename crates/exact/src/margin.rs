@@ -39,6 +39,7 @@ use crate::motion::CoinMotion;
 /// motion that touches the edge and turns back does not flip there, nor, along a rate, does one that is beyond it for less
 /// than 5e-13 of its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Margin {
     /// Of the time of flight (s).
     pub time: Option<f64>,
@@ -54,10 +55,11 @@ pub struct Margin {
     /// that is more, but no further turn than 2000 rad and no phase that is too large to have an outcome. Less where the
     /// motion touches the edge so often that the search was ended.
     pub rate_range: [f64; 3],
-    /// The largest changes of the time of flight that were searched: earlier, down to 0 at most, and later (s). Infinite
+    /// The largest changes of the time of flight that were searched: earlier, down to 0 at most, and later (s). `None`
     /// for a coin, of which all times are searched. Of another body the changes of the time, the speed and gravity are
     /// `None` also where no flip is in the range, or where the nearest of them might lie beyond it.
-    pub time_range: [f64; 2],
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub time_range: Option<[f64; 2]>,
 }
 
 /// Changes of a rate that are searched (rad/s): 160 turns a second, four times what a hand gives a coin.
@@ -74,14 +76,13 @@ pub(crate) fn margin_coin(toss: &CoinToss) -> Result<Margin, SolveError> {
     let outcome = match certify_coin(toss)?.outcome() {
         Outcome::Heads => 1.0,
         Outcome::Tails => -1.0,
-        Outcome::Undecided => return Ok(Margin::on_edge(&toss.launch, rate_range(&toss.launch), f64::INFINITY)),
+        Outcome::Undecided => return Ok(Margin::on_edge(&toss.launch, rate_range(&toss.launch), None)),
     };
     let turn = line::turn(toss);
     let [time, speed, gravity] = of_flight(toss, outcome)?;
     let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, turn, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
-    let time_range = [f64::INFINITY; 2];
-    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range, time_range })
+    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range, time_range: None })
 }
 
 /// The largest change of a rate that is searched (rad/s).
@@ -91,7 +92,7 @@ pub(crate) fn rate_range(launch: &Launch) -> f64 {
 
 impl Margin {
     /// The margin of an undecided toss, with these ranges.
-    pub(crate) fn on_edge(launch: &Launch, rate_range: f64, time_range: f64) -> Self {
+    pub(crate) fn on_edge(launch: &Launch, rate_range: f64, time_range: Option<[f64; 2]>) -> Self {
         let zero = Some(0.0);
         let thrown = if matches!(launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { zero };
         Self {
@@ -101,7 +102,7 @@ impl Margin {
             tilt: zero,
             rate: [zero; 3],
             rate_range: [rate_range; 3],
-            time_range: [time_range; 2],
+            time_range,
         }
     }
 }

@@ -26,6 +26,19 @@ pub struct Sensitivity {
     pub cos_tilt: Vector4<f64>,
 }
 
+/// The derivatives of cos θ: those with respect to ωx, ωy, ωz as `rate`, and that with respect to the `time`.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Sensitivity {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let [x, y, z, time] = <[f64; 4]>::from(self.cos_tilt);
+        let mut fields = to.serialize_struct("Sensitivity", 2)?;
+        fields.serialize_field("rate", &[x, y, z])?;
+        fields.serialize_field("time", &time)?;
+        fields.end()
+    }
+}
+
 impl Sensitivity {
     /// The derivatives at the landing of the toss of a coin.
     ///

@@ -20,7 +20,7 @@ mod solver;
 mod system;
 mod taylor;
 
-pub use crate::prove::certificate::{IntegratedCertificate, Integration};
+pub use crate::prove::certificate::IntegratedCertificate;
 pub use crate::prove::counts::{IntegratedCounts, Proving};
 pub use crate::solver::{QuaternionSolver, TAYLOR};
 pub use crate::system::{QuaternionSystem, RigidSystem};

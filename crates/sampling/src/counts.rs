@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Body, Checked, Error, Outcome, Solver, Tilt, Toss};
+use dynamics::{Body, Checked, Error, Solver, Tilt, Toss};
 use exact::{Batch, BodyFilter, ProvenCounts};
 
 use crate::block::Block;
@@ -17,32 +17,25 @@ use crate::space::Space;
 /// Numbers of launches by their outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    estimated: Estimated,
+    /// Outcomes that a solver decided; they are as reliable as its error estimate.
+    estimated: dynamics::Counts,
     proven: ProvenCounts,
-}
-
-/// Outcomes that a solver decided; they are as reliable as its error estimate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Estimated {
-    heads: u64,
-    tails: u64,
-    undecided: u64,
 }
 
 impl Counts {
     /// Number of launches that land heads.
     pub fn heads(&self) -> u64 {
-        self.estimated.heads + self.proven.heads()
+        self.estimated.heads + self.proven.heads
     }
 
     /// Number of launches that land tails.
     pub fn tails(&self) -> u64 {
-        self.estimated.tails + self.proven.tails()
+        self.estimated.tails + self.proven.tails
     }
 
     /// Number of launches that land with |cos θ| below the solver's error estimate, and of exact ties.
     pub fn undecided(&self) -> u64 {
-        self.estimated.undecided + self.proven.ties()
+        self.estimated.undecided + self.proven.undecided
     }
 
     /// The proven outcomes among them.
@@ -76,34 +69,20 @@ impl Counts {
 
     /// Whether every outcome is proven, and there is at least one.
     pub fn are_certified(&self) -> bool {
-        self.proven.total() > 0 && self.proven.without_proof() == 0 && self.estimated == Estimated::default()
-    }
-
-    /// Adds an estimated outcome.
-    fn add(&mut self, outcome: Outcome) {
-        match outcome {
-            Outcome::Heads => self.estimated.heads += 1,
-            Outcome::Tails => self.estimated.tails += 1,
-            Outcome::Undecided => self.estimated.undecided += 1,
-        }
+        self.proven.total() > 0 && self.proven.without_proof == 0 && self.estimated.total() == 0
     }
 
     /// Counts of outcomes none of which is proven.
     #[cfg(any(test, feature = "serde"))]
     pub(crate) fn estimated(heads: u64, tails: u64, undecided: u64) -> Self {
-        Self { estimated: Estimated { heads, tails, undecided }, proven: ProvenCounts::default() }
+        let estimated = dynamics::Counts { heads, tails, undecided, ..dynamics::Counts::default() };
+        Self { estimated, ..Self::default() }
     }
 }
 
 impl Sum for Counts {
     fn merge(self, other: Self) -> Self {
-        let (one, two) = (self.estimated, other.estimated);
-        let estimated = Estimated {
-            heads: one.heads + two.heads,
-            tails: one.tails + two.tails,
-            undecided: one.undecided + two.undecided,
-        };
-        Self { estimated, proven: self.proven + other.proven }
+        Self { estimated: self.estimated + other.estimated, proven: self.proven + other.proven }
     }
 }
 
@@ -169,15 +148,15 @@ fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts
     let tosses: Vec<Toss> = block.all_values().map(|values| space.toss(&values)).collect();
     let mut tilts = vec![Tilt { cos_tilt: 0.0, error: None }; tosses.len()];
     solver.tilts(&tosses, &mut tilts)?;
-    let mut counts = Counts::default();
-    tilts.into_iter().for_each(|tilt| counts.add(tilt.outcome()));
-    Ok(counts)
+    let mut estimated = dynamics::Counts::default();
+    tilts.into_iter().for_each(|tilt| estimated.add(tilt.outcome()));
+    Ok(Counts { estimated, ..Counts::default() })
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::Coin;
-    use exact::{ExactSolver, Stage};
+    use dynamics::{Coin, Stage};
+    use exact::ExactSolver;
 
     use super::*;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};

@@ -10,6 +10,8 @@
 
 mod cell;
 mod directions;
+mod function;
+mod means;
 mod roots;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -26,8 +28,10 @@ use crate::estimate::Estimate;
 use crate::fold::{Narrowed, Progress};
 use crate::interval::Interval;
 use crate::space::Space;
-use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
+use cell::{Cell, MOST_DIRECTIONS};
 use directions::{Direction, directions_of};
+use function::Bounds;
+use means::Problem;
 
 /// The largest number of cells of one sum, unless another is given.
 pub const MOST_CELLS: u64 = 1 << 24;
@@ -140,7 +144,7 @@ pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
     let found = enclosed(reports, (space, coin), accuracy, most_cells);
-    Ok(Estimate::of_enclosure(found.interval, found.cells))
+    Ok(Estimate::of_enclosure(accuracy, found.interval, found.cells))
 }
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.

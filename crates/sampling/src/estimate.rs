@@ -80,6 +80,8 @@ pub struct Estimate {
     pub points: u64,
     /// The result that the estimate is made from.
     pub found: Found,
+    /// The plan of the launches.
+    pub plan: Plan,
 }
 
 /// The result that an estimate is made from.
@@ -101,10 +103,16 @@ impl Estimate {
         Some((self.probability - lo).max(hi - self.probability))
     }
 
-    /// Whether this is of a `plan` by enclosure whose accuracy its number of cells did not reach. Its interval is proven all the
+    /// Whether this is an enclosure that did not reach its accuracy with its number of cells. Its interval is proven all the
     /// same.
-    pub fn is_wider_than_asked(&self, plan: Plan) -> bool {
-        matches!(plan, Plan::Enclosure { accuracy } if self.half_width().is_some_and(|reached| reached > accuracy))
+    pub fn is_wider_than_asked(&self) -> bool {
+        matches!(self.plan, Plan::Enclosure { accuracy } if self.half_width().is_some_and(|reached| reached > accuracy))
+    }
+
+    /// What the interval means, and whether it is wider than was asked for.
+    pub fn interval_in_words(&self) -> String {
+        let wider = if self.is_wider_than_asked() { ", but wider than was asked for" } else { "" };
+        format!("{}{wider}", self.interval_kind)
     }
 
     /// Whether any launch is decided. If none is, nothing is known of the probability.
@@ -121,32 +129,32 @@ impl Estimate {
         }
     }
 
-    fn of_counts(counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
+    fn of_counts(plan: Plan, counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
         let (found, points) = (Found::Counts(counts), counts.points());
         match counts.probability() {
-            Some(probability) => Self { probability, interval, interval_kind, points, found },
-            None => Self::of_nothing(found, points),
+            Some(probability) => Self { probability, interval, interval_kind, points, found, plan },
+            None => Self::of_nothing(plan, found, points),
         }
     }
 
     /// The estimate from `points` launches of which none is decided.
-    fn of_nothing(found: Found, points: u64) -> Self {
+    fn of_nothing(plan: Plan, found: Found, points: u64) -> Self {
         let interval = Some(Interval { lo: 0.0, hi: 1.0 });
-        Self { probability: 0.5, interval, interval_kind: IntervalKind::NoneDecided, points, found }
+        Self { probability: 0.5, interval, interval_kind: IntervalKind::NoneDecided, points, found, plan }
     }
 
-    pub(crate) fn of_grid_counts(counts: Counts) -> Self {
-        Self::of_counts(counts, None, IntervalKind::Grid)
+    pub(crate) fn of_grid_counts(plan: Plan, counts: Counts) -> Self {
+        Self::of_counts(plan, counts, None, IntervalKind::Grid)
     }
 
-    pub(crate) fn of_independent_counts(counts: Counts) -> Self {
-        Self::of_counts(counts, Some(of_independent(counts)), IntervalKind::ClopperPearson)
+    pub(crate) fn of_independent_counts(plan: Plan, counts: Counts) -> Self {
+        Self::of_counts(plan, counts, Some(of_independent(counts)), IntervalKind::ClopperPearson)
     }
 
-    pub(crate) fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
+    pub(crate) fn of_scrambled_counts(plan: Plan, scrambles: &[Counts]) -> Self {
         let counts: Counts = scrambles.iter().copied().sum();
         if counts.heads() == counts.points() || counts.tails() == counts.points() {
-            return Self::of_counts(counts, Some(of_independent(counts)), IntervalKind::Unanimous);
+            return Self::of_counts(plan, counts, Some(of_independent(counts)), IntervalKind::Unanimous);
         }
         // The undecided launches may all land tails, or all heads.
         let from = |probability: fn(&Counts) -> f64| {
@@ -156,39 +164,50 @@ impl Estimate {
         match (from(Counts::smallest_probability), from(Counts::largest_probability)) {
             (Some((low, low_is_wider)), Some((high, high_is_wider))) => {
                 let kind = of_scrambles(scrambles.len(), low_is_wider || high_is_wider);
-                Self::of_counts(counts, Some(Interval { lo: low.lo, hi: high.hi }), kind)
+                Self::of_counts(plan, counts, Some(Interval { lo: low.lo, hi: high.hi }), kind)
             }
-            _ => Self::of_counts(counts, None, IntervalKind::OneScramble),
+            _ => Self::of_counts(plan, counts, None, IntervalKind::OneScramble),
         }
     }
 
-    fn of_share(share: Share, points: u64, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
+    fn of_share(
+        plan: Plan,
+        share: Share,
+        points: u64,
+        interval: Option<Interval>,
+        interval_kind: IntervalKind,
+    ) -> Self {
         let found = Found::Shares { rounding_error: share.error };
         if share.error >= 0.5 && interval_kind != IntervalKind::Proven {
-            return Self::of_nothing(found, points);
+            return Self::of_nothing(plan, found, points);
         }
-        Self { probability: share.probability, interval, interval_kind, points, found }
+        Self { probability: share.probability, interval, interval_kind, points, found, plan }
     }
 
     /// The estimate from the mean share over a grid. It is `exact` if only the speed varies, so that the grid has one
     /// point.
-    pub(crate) fn of_grid_share(share: Share, points: u64, exact: bool) -> Self {
+    pub(crate) fn of_grid_share(plan: Plan, share: Share, points: u64, exact: bool) -> Self {
         if !exact {
-            return Self::of_share(share, points, None, IntervalKind::Grid);
+            return Self::of_share(plan, share, points, None, IntervalKind::Grid);
         }
         let interval = Interval { lo: share.probability, hi: share.probability }.widened(share.error);
-        Self::of_share(share, points, Some(interval), IntervalKind::Rounding)
+        Self::of_share(plan, share, points, Some(interval), IntervalKind::Rounding)
     }
 
     /// The estimate from an enclosure by so many cells.
-    pub(crate) fn of_enclosure(interval: Interval, cells: u64) -> Self {
+    pub(crate) fn of_enclosure(accuracy: f64, interval: Interval, cells: u64) -> Self {
         let share = Share::new(0.5 * (interval.lo + interval.hi), 0.0);
-        Self::of_share(share, cells, Some(interval), IntervalKind::Proven)
+        Self::of_share(Plan::Enclosure { accuracy }, share, cells, Some(interval), IntervalKind::Proven)
     }
 
     /// The estimate from the mean shares of scrambles with this many points in all. `unresolved` tells what the points do not
     /// [resolve](crate::unresolved).
-    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64, unresolved: impl FnOnce() -> f64) -> Self {
+    pub(crate) fn of_scrambled_shares(
+        plan: Plan,
+        scrambles: &[Share],
+        points: u64,
+        unresolved: impl FnOnce() -> f64,
+    ) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "a handful of scrambles")]
         let mean = |part: fn(&Share) -> f64| scrambles.iter().map(part).sum::<f64>() / scrambles.len() as f64;
         let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
@@ -196,15 +215,15 @@ impl Estimate {
         if means.iter().all(|mean| *mean == 0.0) || means.iter().all(|mean| *mean == 1.0) {
             let heads = if share.probability == 0.0 { 0 } else { points };
             let interval = clopper_pearson(heads, points, LEVEL).widened(share.error);
-            return Self::of_share(share, points, Some(interval), IntervalKind::Unanimous);
+            return Self::of_share(plan, share, points, Some(interval), IntervalKind::Unanimous);
         }
         let largest_error = scrambles.iter().map(|share| share.error).fold(0.0, f64::max);
         match from_scrambled_points(&means, largest_error, points, LEVEL) {
-            None => Self::of_share(share, points, None, IntervalKind::OneScramble),
+            None => Self::of_share(plan, share, points, None, IntervalKind::OneScramble),
             Some((interval, is_wider)) => {
                 let unresolved = unresolved();
                 let kind = of_scrambles(means.len(), is_wider || unresolved > 0.5 * interval.width());
-                Self::of_share(share, points, Some(interval.widened(share.error + unresolved)), kind)
+                Self::of_share(plan, share, points, Some(interval.widened(share.error + unresolved)), kind)
             }
         }
     }
@@ -228,18 +247,21 @@ pub(crate) fn of_independent(counts: Counts) -> Interval {
 mod tests {
     use super::*;
 
+    /// Of any launches.
+    const PLAN: Plan = Plan::Grid;
+
     #[test]
     fn undecided_launches_widen_the_interval() {
         let counts = Counts::estimated(500, 300, 200);
-        let interval = Estimate::of_independent_counts(counts).interval.unwrap();
+        let interval = Estimate::of_independent_counts(PLAN, counts).interval.unwrap();
         assert!(interval.lo < 0.5 && interval.hi > 0.7);
         let scrambles = [Counts::estimated(5, 3, 2); 8];
-        let interval = Estimate::of_scrambled_counts(&scrambles).interval.unwrap();
+        let interval = Estimate::of_scrambled_counts(PLAN, &scrambles).interval.unwrap();
         // The scrambles agree, on 0.5 and on 0.7 if the undecided launches are heads, as 0 of 80 do on 0.
         let reach = clopper_pearson(0, 80, LEVEL).hi;
         let [lo, hi] = [interval.lo - (0.5 - reach), interval.hi - (0.7 + reach)];
         assert!(lo.abs() < 1e-12 && hi.abs() < 1e-12, "{interval:?}");
-        assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
+        assert_eq!(Estimate::of_scrambled_counts(PLAN, &scrambles[..1]).interval_kind, IntervalKind::OneScramble);
     }
 
     /// An undecided launch counts neither as heads nor as tails, whichever the plan.
@@ -247,9 +269,9 @@ mod tests {
     fn undecided_launches_are_in_no_share_and_if_none_is_decided_nothing_is_known() {
         let of = |counts: Counts| {
             [
-                Estimate::of_grid_counts(counts),
-                Estimate::of_independent_counts(counts),
-                Estimate::of_scrambled_counts(&[counts; 8]),
+                Estimate::of_grid_counts(PLAN, counts),
+                Estimate::of_independent_counts(PLAN, counts),
+                Estimate::of_scrambled_counts(PLAN, &[counts; 8]),
             ]
         };
         for found in of(Counts::estimated(3, 1, 60)) {
@@ -260,7 +282,7 @@ mod tests {
             assert!(found.interval.is_none_or(|interval| interval.hi > 24.0 / 64.0), "{found:?}");
             assert_ne!(found.interval_kind, IntervalKind::Unanimous);
         }
-        let tie = Estimate::of_grid_share(Share::new(0.5, 0.5), 1, true);
+        let tie = Estimate::of_grid_share(PLAN, Share::new(0.5, 0.5), 1, true);
         for found in of(Counts::estimated(0, 0, 64)).into_iter().chain([tie]) {
             let interval = Some(Interval { lo: 0.0, hi: 1.0 });
             assert_eq!((found.probability, found.interval, found.is_known()), (0.5, interval, false));
@@ -275,10 +297,10 @@ mod tests {
     fn half_width_is_the_distance_to_the_farther_end_and_kinds_have_names() {
         let estimate = |lo, hi| Estimate {
             interval: Some(Interval { lo, hi }),
-            ..Estimate::of_independent_counts(Counts::estimated(1, 1, 0))
+            ..Estimate::of_independent_counts(PLAN, Counts::estimated(1, 1, 0))
         };
         assert_eq!((estimate(0.25, 0.625).half_width(), estimate(0.375, 0.75).half_width()), (Some(0.25), Some(0.25)));
-        let none = Estimate::of_grid_counts(Counts::estimated(1, 0, 0));
+        let none = Estimate::of_grid_counts(PLAN, Counts::estimated(1, 0, 0));
         assert_eq!(none.half_width(), None);
         assert_eq!(IntervalKind::Scrambles(8).to_string(), "student 95 % of 8 scrambles");
         assert!(

@@ -34,13 +34,20 @@
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// An interval of probabilities within [0, 1].
+/// An interval of probabilities within [0, 1]. With serde it is the array of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(into = "[f64; 2]"))]
 pub struct Interval {
     /// Lower end.
     pub lo: f64,
     /// Upper end.
     pub hi: f64,
+}
+
+impl From<Interval> for [f64; 2] {
+    fn from(Interval { lo, hi }: Interval) -> Self {
+        [lo, hi]
+    }
 }
 
 impl Interval {

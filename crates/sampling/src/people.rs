@@ -52,6 +52,7 @@ const COARSE: f64 = 1e-5;
 
 /// How much people differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spread {
     /// Standard deviation of the probability over people.
     pub sd: f64,

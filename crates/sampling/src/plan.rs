@@ -169,6 +169,15 @@ impl Plan {
         }
     }
 
+    /// The seed; `None` if nothing is random.
+    pub fn seed(&self) -> Option<u64> {
+        match *self {
+            Self::Grid | Self::ExactSpeed(Rest::Grid) | Self::Enclosure { .. } => None,
+            Self::Random { seed, .. } => Some(seed),
+            Self::Sobol(scrambled) | Self::ExactSpeed(Rest::Sobol(scrambled)) => Some(scrambled.seed),
+        }
+    }
+
     /// Number of launches that the plan tries in `space`. For [`Plan::ExactSpeed`] each of them stands for all speeds;
     /// it is 1 if nothing but the speed varies.
     ///

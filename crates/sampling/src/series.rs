@@ -27,9 +27,12 @@ pub struct RunningStep {
     pub random_lo: f64,
     /// Upper end of that interval, which holds whatever the outcomes of the undecided launches are.
     pub random_hi: f64,
-    /// Numbers of undecided launches of the grid and of the random ones.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    pub undecided: [u64; 2],
+    /// Number of undecided launches of the grid; `None` if no launch of the series is undecided.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub grid_undecided: Option<u64>,
+    /// Likewise of the random launches.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub random_undecided: Option<u64>,
 }
 
 /// More steps than this are refused; a chart shows hundreds.
@@ -53,6 +56,8 @@ impl Sampler<'_> {
     pub fn running_shares(&self, space: &Space, steps: u64, seed: u64) -> Result<Vec<RunningStep>, Error> {
         let grid = self.running_grid(space, steps)?;
         let random = self.running_random(space, space.grid_points()?, seed, steps)?;
+        let is_undecided = grid.iter().chain(&random).any(|counts| counts.undecided() > 0);
+        let undecided = |counts: &Counts| is_undecided.then(|| counts.undecided());
         let step = |(grid, random): (&Counts, &Counts)| {
             let interval = of_independent(*random);
             RunningStep {
@@ -61,7 +66,8 @@ impl Sampler<'_> {
                 random: random.probability(),
                 random_lo: interval.lo,
                 random_hi: interval.hi,
-                undecided: [grid.undecided(), random.undecided()],
+                grid_undecided: undecided(grid),
+                random_undecided: undecided(random),
             }
         };
         Ok(grid.iter().zip(&random).map(step).collect())
@@ -206,7 +212,7 @@ mod tests {
         for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
             let Interval { lo, hi } = clopper_pearson(random.heads(), random.points(), 0.95);
             let columns = [grid.points() as f64, grid.probability().unwrap(), random.probability().unwrap(), lo, hi];
-            assert_eq!((step.columns(), step.undecided), (Some(columns), [0, 0]));
+            assert_eq!((step.columns(), step.grid_undecided, step.random_undecided), (Some(columns), None, None));
         }
         assert_ne!(steps[8].grid, steps[8].random);
     }
@@ -233,8 +239,8 @@ mod tests {
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let steps = Sampler::by(&Unsure(4.0)).running_shares(&space, 10, 5).unwrap();
         // All launches that are decided land heads. The slowest come first.
-        assert_eq!((steps[0].grid, steps[0].columns(), steps[0].undecided[0]), (None, None, 10));
-        assert_eq!((steps[9].grid, steps[9].random, steps[9].undecided[0]), (Some(1.0), Some(1.0), 80));
+        assert_eq!((steps[0].grid, steps[0].columns(), steps[0].grid_undecided), (None, None, Some(10)));
+        assert_eq!((steps[9].grid, steps[9].random, steps[9].grid_undecided), (Some(1.0), Some(1.0), Some(80)));
         assert!(steps[9].random_lo < 0.35 && steps[9].random_hi == 1.0, "{:?}", steps[9]);
         let tails =
             Space::parse(Coin::PAPER, &[(RateX, "0"), (RateY, "0"), (RateZ, "1"), (Tilt, "3"), (Speed, "0:5:100")]);

@@ -75,6 +75,42 @@ pub enum LargestSpread {
     BelowSmallest(Estimate),
 }
 
+impl LargestSpread {
+    /// Which answer this is, as a name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::UpTo(_) => "up_to",
+            Self::AtLeast(_) => "at_least",
+            Self::Any(_) => "any",
+            Self::TossIsNotHeads(_) => "toss_is_not_heads",
+            Self::BelowSmallest(_) => "below_smallest",
+        }
+    }
+
+    /// The spread with what is known of it, if one suffices.
+    pub fn sufficient(&self) -> Option<&SufficientSpread> {
+        match self {
+            Self::UpTo(found) | Self::AtLeast(found) | Self::Any(found) => Some(found),
+            Self::TossIsNotHeads(_) | Self::BelowSmallest(_) => None,
+        }
+    }
+}
+
+/// The name as `answer`, and the spread, P(heads) there, the number of looks and `at_least`, which are null if none suffices.
+#[cfg(feature = "serde")]
+impl serde::Serialize for LargestSpread {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let (found, mut fields) = (self.sufficient(), to.serialize_struct("LargestSpread", 5)?);
+        fields.serialize_field("answer", self.name())?;
+        fields.serialize_field("spread", &found.map(|found| found.spread))?;
+        fields.serialize_field("probability", &found.map(|found| found.estimate.probability))?;
+        fields.serialize_field("looks", &found.map(|found| found.looks))?;
+        fields.serialize_field("at_least", &found.map(|found| found.at_least))?;
+        fields.end()
+    }
+}
+
 /// A spread that suffices, and what is known of the smaller ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SufficientSpread {
@@ -346,7 +382,7 @@ mod tests {
                     let spread = 0.01 * 1.06f64.powi(start);
                     let look = |spread: f64| {
                         let share = crate::exact_speed::Share::new(exact(spread), 0.0);
-                        Look { spread, estimate: Estimate::of_grid_share(share, 1, false) }
+                        Look { spread, estimate: Estimate::of_grid_share(Plan::Grid, share, 1, false) }
                     };
                     let (here, next) = (look(spread), look(spread * factor));
                     let bound = here.least_up_to(&next, 1);

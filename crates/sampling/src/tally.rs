@@ -93,18 +93,18 @@ impl Sums {
         let points = plan.points(space)?;
         Ok(match self {
             Self::Counts(counts) => match plan {
-                Plan::Sobol(_) => Estimate::of_scrambled_counts(counts),
-                Plan::Random { .. } => Estimate::of_independent_counts(counts.iter().copied().sum()),
-                _ => Estimate::of_grid_counts(counts.iter().copied().sum()),
+                Plan::Sobol(_) => Estimate::of_scrambled_counts(plan, counts),
+                Plan::Random { .. } => Estimate::of_independent_counts(plan, counts.iter().copied().sum()),
+                _ => Estimate::of_grid_counts(plan, counts.iter().copied().sum()),
             },
             Self::Shares(shares) => {
                 let means: Vec<_> = shares.iter().map(Shares::mean).collect();
                 let only_the_speed_varies = cube_of_the_rest(space).dimensions() == 0;
                 match (plan, &means[..]) {
                     (Plan::ExactSpeed(Rest::Sobol(scrambled)), means) if !only_the_speed_varies => {
-                        Estimate::of_scrambled_shares(means, points, || unresolved(space, scrambled))
+                        Estimate::of_scrambled_shares(plan, means, points, || unresolved(space, scrambled))
                     }
-                    (_, means) => Estimate::of_grid_share(means[0], points, only_the_speed_varies),
+                    (_, means) => Estimate::of_grid_share(plan, means[0], points, only_the_speed_varies),
                 }
             }
         })

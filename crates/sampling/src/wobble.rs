@@ -16,6 +16,7 @@ use crate::people::{People, Spread};
 
 /// How many of the tosses of a person landed on the side that had been up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SameSide {
     same: u64,
     tosses: u64,
@@ -65,17 +66,22 @@ impl SameSide {
 
 /// The wobble that explains counts. Intervals are at the confidence [`LEVEL`].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Wobble {
     /// The counts of all people together.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub counts: SameSide,
     /// Number of people with at least one toss.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub people: usize,
     /// The share of all landings on the same side.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub share: f64,
     /// Clopper and Pearson's interval of the mean probability of these people, weighted by their tosses. It holds however
     /// people differ, and says nothing about others.
     pub these_flips: Interval,
     /// The mean probability over people like these, each counted once; of one person the share.
+    #[cfg_attr(feature = "serde", serde(rename = "mean_over_people"))]
     pub mean: f64,
     /// The interval of the mean over people; of one person `these_flips`.
     pub interval: Interval,
@@ -85,8 +91,14 @@ pub struct Wobble {
     pub spread: Option<Spread>,
     /// Where the probability of a further person lies; `None` for fewer than three people.
     pub next_person: Option<Interval>,
-    /// ψ; `None` if the whole interval is below ½, which no wobble explains.
+    /// ψ; `None` if the whole interval is below ½, which no wobble explains. With serde it is its interval.
+    #[cfg_attr(feature = "serde", serde(rename = "cone_angle_interval", serialize_with = "interval_of"))]
     pub cone: Option<Cone>,
+}
+
+#[cfg(feature = "serde")]
+fn interval_of<S: serde::Serializer>(cone: &Option<Cone>, to: S) -> Result<S::Ok, S::Error> {
+    serde::Serialize::serialize(&cone.map(|cone| cone.interval), to)
 }
 
 /// The angle ψ between normal and angular momentum (rad), from π/4 for a share of 1, which every smaller angle has too, to

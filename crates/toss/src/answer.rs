@@ -1,9 +1,8 @@
 //! The types of an answer to a scene. An outcome says whether it is proven or estimated, so that an estimate is never
 //! taken for a proof.
 
-use dynamics::Outcome;
-use dynamics::State;
-use exact::{Certificate, Stage};
+use dynamics::{Outcome, Stage, State};
+use exact::Certificate;
 use kinematics_quat::IntegratedCertificate;
 use sampling::Estimate;
 

@@ -169,7 +169,7 @@ fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tol
     let of = scene.want.toss().map_or(Of::Coins, |toss| Of::body(&toss.body));
     let expected_cost_ns = cost_ns(solver.as_ref(), costs(entry.name(), scheme, of), &scene.want)?;
     let how = How::Integrator(entry.clone(), stepping);
-    Ok(Flown::Serves(Choice { model: model(), how, expected_error, expected_cost_ns }))
+    Ok(Flown::Serves(Choice { model: model(), how, expected_error, expected_cost_ns, points: None }))
 }
 
 /// How far an answer is from that of the exact motion, of cos θ or of the attitude (rad), with what the latter may be off by

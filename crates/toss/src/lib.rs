@@ -253,13 +253,14 @@ pub mod planner {
 pub mod solvers {
     pub use dynamics::{Checked, ForeignError};
     pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-    pub use kinematics_quat::{IntegratedCounts, Integration, Proving};
+    pub use kinematics_quat::{IntegratedCounts, Proving};
 }
 
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Attitude, Body, Coin, CoinToss, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3, nalgebra,
+    Attitude, Body, Coin, CoinToss, EulerAngles, Launch, Outcome, Stage, State, TimeOfFlight, Toss, Tosses, Vector3,
+    nalgebra,
 };
 pub use trace::{TracePoint, trace};
 
@@ -273,7 +274,7 @@ pub use registry::{Backend, Registry};
 
 // The exact motion, and what follows from it.
 pub use exact::{
-    Batch, Certificate, CoinMotion, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify,
+    Batch, Certificate, CoinMotion, ExactMotion, ExactSolver, Margin, STAGES, Sensitivity, certify,
     level_speeds_of_heads, margin, speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;

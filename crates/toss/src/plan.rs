@@ -176,7 +176,7 @@ impl Scene {
         }
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
         let expected_cost_ns = cost_ns * self.want.points() as f64;
-        Ok(Choice { model, how: How::ClosedForm, expected_error: error, expected_cost_ns })
+        Ok(Choice { model, how: How::ClosedForm, expected_error: error, expected_cost_ns, points: None })
     }
 }
 
@@ -196,7 +196,7 @@ impl Choice {
             (How::ClosedForm, Kind::ClosedForm { serves, answer, .. }, want) if *serves == want.kind() => {
                 answer(want.toss().ok_or_else(other)?, want.points())
             }
-            (How::Integrator(_, stepping), _, want) if scene.by_proof().is_some() => proven(*stepping, want),
+            (How::Proof(stepping), _, want) => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
                 Ok(Answer::Probability(Box::new(sampled(space, *plan, scene.accuracy, progress)?)))

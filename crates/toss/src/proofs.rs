@@ -61,8 +61,8 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
         if bound(&found) <= accuracy {
             #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
             let expected_cost_ns = cost_ns + call_ns * found.work().rhs_calls as f64;
-            let how = How::Integrator(entry.clone(), stepping);
-            let choice = Choice { model: model(), how, expected_error: bound(&found), expected_cost_ns };
+            let (how, expected_error) = (How::Proof(stepping), bound(&found));
+            let choice = Choice { model: model(), how, expected_error, expected_cost_ns, points: None };
             return Ok(Decision { choice, passed_over: Vec::new() });
         }
     }

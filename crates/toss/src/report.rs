@@ -2,19 +2,16 @@
 //! in the browser, and yours. A report only reads what was computed, and nothing is read back from it.
 
 use dynamics::{
-    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, StepControl,
-    TimeOfFlight, Toss, Work,
+    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, Stage, Toss, Work,
 };
-use exact::{ExactSolver, Sensitivity, Stage};
-use kinematics_quat::{IntegratedCounts, Integration, QuaternionSolver};
-use sampling::{Counts, Found, IntervalKind, LargestSpread, Plan, Rest, Scrambled, SufficientSpread};
+use exact::{ExactSolver, Margin, STAGES, Sensitivity, margin};
+use kinematics_quat::{IntegratedCounts, QuaternionSolver};
+use sampling::{Counts, Found, IntervalKind};
+use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use crate::choice::{Candidate, Choice, Decision, How};
-use crate::reason::Reason;
 use crate::registry::{Backend, Registry};
 use crate::rounding::Rounding;
-use crate::scene::{Scene, Want};
 
 /// The moments of a body (kg m²).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -64,11 +61,17 @@ pub struct Landing {
     /// In words, what is or is not proven of the outcome.
     #[serde(skip)]
     pub remark: String,
-    /// `None` for a body with I1 ≠ I2, unless it was asked for.
+    /// The last stage of the proof by the exact motion, whether it has decided or not.
+    #[serde(skip)]
+    pub stage: Option<Stage>,
+    /// The solver's estimate of the error of cos θ.
+    #[serde(skip)]
+    pub error_estimate: Option<f64>,
+    /// If it was asked for; see [`Landing::with_margin`].
     pub margin: Option<Margin>,
     /// Of a body with I1 ≠ I2, unless it leaves the range of f64; see [`Landing::with_sensitivity`].
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sensitivity: Option<Slopes>,
+    pub sensitivity: Option<Sensitivity>,
     /// The quaternion (w, x, y, z) from the body to the laboratory.
     pub attitude: [f64; 4],
     /// The body rate (rad/s).
@@ -83,73 +86,16 @@ pub struct Landing {
     pub work: Work,
 }
 
-/// The derivatives of cos θ at landing.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Slopes {
-    /// With respect to ωx, ωy and ωz (s).
-    pub rate: [f64; 3],
-    /// With respect to the time of flight (1/s).
-    pub time: f64,
-}
-
-/// For each input alone, the change to the nearest value that flips the outcome of the exact motion; `None` where none does, or,
-/// of a rate, none up to a change of `rate_range`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Margin {
-    /// Of the time of flight (s).
-    pub time: Option<f64>,
-    /// Of the speed (m/s).
-    pub speed: Option<f64>,
-    /// Of gravity (m/s²).
-    pub gravity: Option<f64>,
-    /// Of the tilt (rad).
-    pub tilt: Option<f64>,
-    /// Of each rate (rad/s).
-    pub rate: [Option<f64>; 3],
-    /// How far each rate was searched (rad/s).
-    pub rate_range: [f64; 3],
-    /// The changes of the time of flight that were searched, earlier and later (s), for a body with I1 ≠ I2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub time_range: Option<[f64; 2]>,
-    /// Whether a speed was given, and not a time.
-    #[serde(skip)]
-    pub thrown: bool,
-}
-
-impl Margin {
-    /// The margin of `toss`. Of a body with I1 ≠ I2 it takes up to some seconds.
-    ///
-    /// # Errors
-    /// As for [`exact::margin()`].
-    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
-        let exact::Margin { time, speed, gravity, tilt, rate, rate_range, time_range } = exact::margin(toss)?;
-        let thrown = !matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_));
-        let time_range = toss.body.coin().is_none().then_some(time_range);
-        Ok(Self { time, speed, gravity, tilt, rate, rate_range, time_range, thrown })
-    }
-}
-
-impl Slopes {
-    /// `None` where they leave the range of f64, which the landing does not.
-    fn new(toss: &Toss) -> Result<Option<Self>, SolveError> {
-        let derivatives = match Sensitivity::new(toss) {
-            Err(SolveError::NotFinite { .. }) => return Ok(None),
-            derivatives => derivatives?,
-        };
-        let [x, y, z, time] = <[f64; 4]>::from(derivatives.cos_tilt).map(without_sign_of_zero);
-        Ok(Some(Self { rate: [x, y, z], time }))
-    }
-}
-
 impl Landing {
-    /// The landing of `toss` by `backend`. The margin of a body with I1 ≠ I2 is there if it is asked for.
+    /// The landing of `toss` by `backend`.
     ///
     /// # Errors
     /// As for [`Solver::land`] and [`Backend::verdict`].
-    pub fn new(toss: &Toss, backend: &Backend, with_margin: bool) -> Result<Self, SolveError> {
+    pub fn new(toss: &Toss, backend: &Backend) -> Result<Self, SolveError> {
         let landed = backend.solver().land(toss)?;
         let verdict = backend.verdict(toss, landed.tilt())?;
-        let mut report = Self::of(toss, &landed, backend.solver(), verdict.outcome(), with_margin)?;
+        let mut report = Self::of(toss, &landed, backend.solver(), verdict.outcome());
+        report.stage = verdict.stage();
         if verdict.is_proven() {
             report.prove("exact", ", proven".to_owned());
         }
@@ -162,11 +108,11 @@ impl Landing {
     /// As for [`QuaternionSolver::certify`].
     pub fn integrated(toss: &Toss, solver: &QuaternionSolver) -> Result<Self, SolveError> {
         let certificate = solver.certify(toss)?;
-        let mut report = Self::of(toss, certificate.landing(), solver, certificate.outcome(), false)?;
+        let mut report = Self::of(toss, certificate.landing(), solver, certificate.outcome());
         report.error_bound = Some(certificate.error_bound());
         report.attitude_error_bound = Some(certificate.attitude_error_bound());
         if certificate.outcome() != Outcome::Undecided {
-            report.prove("integrated", format!(", proven by integration in {}", certificate.integration()));
+            report.prove("integrated", format!(", proven by integration in {}", certificate.stage()));
         }
         Ok(report)
     }
@@ -184,24 +130,31 @@ impl Landing {
         Ok(self)
     }
 
+    /// The same with the margin, whose search takes up to some seconds for a body with I1 ≠ I2.
+    ///
+    /// # Errors
+    /// As for [`margin`](margin()).
+    pub fn with_margin(self, toss: &Toss) -> Result<Self, SolveError> {
+        Ok(Self { margin: Some(margin(toss)?), ..self })
+    }
+
     /// The same with the derivatives of cos θ of a body with I1 ≠ I2. A program without this call does not contain their code.
     ///
     /// # Errors
     /// As for [`Sensitivity::new`].
     pub fn with_sensitivity(self, toss: &Toss) -> Result<Self, SolveError> {
-        let is_coin = toss.body.coin().is_some();
-        Ok(if is_coin { self } else { Self { sensitivity: Slopes::new(toss)?, ..self } })
+        if toss.body.coin().is_some() {
+            return Ok(self);
+        }
+        match Sensitivity::new(toss) {
+            // They leave the range of f64, which the landing does not.
+            Err(SolveError::NotFinite { .. }) => Ok(self),
+            derivatives => Ok(Self { sensitivity: Some(derivatives?), ..self }),
+        }
     }
 
-    fn of(
-        toss: &Toss,
-        landed: &Landed,
-        solver: &dyn Solver,
-        outcome: Outcome,
-        with_margin: bool,
-    ) -> Result<Self, SolveError> {
-        let is_coin = toss.body.coin().is_some();
-        Ok(Self {
+    fn of(toss: &Toss, landed: &Landed, solver: &dyn Solver, outcome: Outcome) -> Self {
+        Self {
             coin: Moments::from(&toss.body),
             flight_time: toss.launch.flight_time(),
             cos_tilt: without_sign_of_zero(landed.cos_tilt),
@@ -212,7 +165,9 @@ impl Landing {
             attitude_error_bound: None,
             unit_error: None,
             remark: String::new(),
-            margin: (is_coin || with_margin).then(|| Margin::new(toss)).transpose()?,
+            stage: None,
+            error_estimate: landed.error,
+            margin: None,
             sensitivity: None,
             attitude: landed.state.attitude.components().map(without_sign_of_zero),
             rate: landed.state.rate.into(),
@@ -220,7 +175,7 @@ impl Landing {
             solver: solver.name().to_owned(),
             scheme: solver.stepping().map(|stepping| stepping.scheme().name()),
             work: landed.work,
-        })
+        }
     }
 
     fn prove(&mut self, proof: &'static str, remark: String) {
@@ -334,202 +289,59 @@ pub fn candidates(
     Ok(all)
 }
 
-/// An estimate of P(heads).
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Estimate {
-    /// The counts of outcomes, if launches were counted.
-    #[serde(flatten, serialize_with = "outcomes")]
-    pub counts: Option<Counts>,
-    /// Number of launches.
-    pub points: u64,
-    /// The probability of heads, of the decided launches; `None` if none is decided.
-    pub probability: Option<f64>,
-    /// Without counts: half the width of the interval.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error_bound: Option<f64>,
-    /// Both ends of the interval.
-    pub interval: Option<[f64; 2]>,
-    /// What the interval means.
-    pub interval_kind: String,
-    /// Whether both ends of the interval are proven.
-    pub proven: bool,
-    /// Whether every outcome is proven.
-    pub certified: bool,
-    /// The number of outcomes that each stage of the proof decided.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_map")]
-    pub proven_by: Option<Vec<(&'static str, u64)>>,
-    /// The number of outcomes that each kind of integration decided.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_map")]
-    pub integrated_by: Option<Vec<(&'static str, u64)>>,
-    /// The seed of what is random.
-    #[serde(serialize_with = "seed")]
-    pub seed: Option<u64>,
-    /// The method by which launches were chosen.
-    pub method: &'static str,
+/// An estimate of P(heads) as plain data, with the counts of proofs by integration if they decided all outcomes.
+#[derive(Debug, Clone, Copy)]
+pub struct Estimate<'a> {
+    /// The estimate.
+    pub found: &'a sampling::Estimate,
+    /// The counts of the proofs by integration.
+    pub integrated: Option<&'a IntegratedCounts>,
 }
 
-fn outcomes<S: Serializer>(counts: &Option<Counts>, to: S) -> Result<S::Ok, S::Error> {
-    let named = |of: &Counts| [("heads", of.heads()), ("tails", of.tails()), ("undecided", of.undecided())];
-    to.collect_map(counts.iter().flat_map(named))
-}
-
-fn as_map<S: Serializer>(counts: &Option<Vec<(&'static str, u64)>>, to: S) -> Result<S::Ok, S::Error> {
-    to.collect_map(counts.iter().flatten().copied())
-}
-
-/// A seed above 2^53 as a text, because readers that take numbers for f64, as JavaScript does, would round it.
-fn seed<S: Serializer>(seed: &Option<u64>, to: S) -> Result<S::Ok, S::Error> {
-    match seed {
-        Some(seed) if *seed > 1 << 53 => to.collect_str(seed),
-        seed => seed.serialize(to),
-    }
-}
-
-impl Estimate {
-    /// The estimate that `plan` has `found`.
-    pub fn new(found: &sampling::Estimate, plan: Plan) -> Self {
-        let (counts, error_bound) = match found.found {
-            Found::Counts(counts) => (Some(counts), None),
-            Found::Shares { .. } => (None, found.half_width()),
-        };
+impl Serialize for Estimate<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self { found, integrated } = *self;
+        let counts = if let Found::Counts(counts) = found.found { Some(counts) } else { None };
         let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven());
-        let names = ["f64", "double_double", "multiprecision"];
-        let by_stage =
-            proven.map(|proven| names.into_iter().zip(Stage::ALL.map(|stage| proven.by(stage))).collect::<Vec<_>>());
-        Self {
-            counts,
-            points: found.points,
-            probability: found.is_known().then_some(found.probability),
-            error_bound,
-            interval: found.interval.map(|interval| [interval.lo, interval.hi]),
-            interval_kind: interval_kind(found, plan),
-            proven: found.interval_kind == IntervalKind::Proven,
-            certified: proven.is_some(),
-            proven_by: by_stage,
-            integrated_by: None,
-            seed: seed_of(plan),
-            method: plan.method().name(),
+        let mut map = to.serialize_map(None)?;
+        if let Some(counts) = counts {
+            map.serialize_entry("heads", &counts.heads())?;
+            map.serialize_entry("tails", &counts.tails())?;
+            map.serialize_entry("undecided", &counts.undecided())?;
         }
-    }
-
-    /// The same estimate, of which each outcome was decided by integration.
-    #[must_use]
-    pub fn integrated(self, counts: &IntegratedCounts) -> Self {
-        let names = ["coarse", "f64", "finest_tolerance", "double_double", "more_digits"];
-        let by_kind = names.into_iter().zip(Integration::ALL.map(|kind| counts.by(kind))).collect();
-        Self { certified: counts.undecided() == 0, integrated_by: Some(by_kind), ..self }
-    }
-}
-
-/// What the interval of an estimate by `plan` means, in words, and whether it is wider than was asked for.
-fn interval_kind(found: &sampling::Estimate, plan: Plan) -> String {
-    let kind = &found.interval_kind;
-    if found.is_wider_than_asked(plan) { format!("{kind}, but wider than was asked for") } else { kind.to_string() }
-}
-
-/// The seed of `plan`; `None` if nothing in it is random.
-fn seed_of(plan: Plan) -> Option<u64> {
-    match plan {
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Enclosure { .. } => None,
-        Plan::Random { seed, .. } => Some(seed),
-        Plan::Sobol(Scrambled { seed, .. }) | Plan::ExactSpeed(Rest::Sobol(Scrambled { seed, .. })) => Some(seed),
-    }
-}
-
-/// The model that a plan takes, and the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Planned {
-    /// Name of the model.
-    pub model: &'static str,
-    /// Name of the solver.
-    pub solver: String,
-    /// The scheme of an integrator.
-    pub scheme: Option<&'static str>,
-    /// The method by which a sample chooses its launches.
-    pub method: Option<&'static str>,
-    /// The tolerance of an integrator.
-    pub tolerance: Option<f64>,
-    /// The number of launches of a sample. The cells of an enclosure are not numbered before.
-    pub points: Option<u64>,
-    /// The error to expect.
-    pub expected_error: f64,
-    /// Whether no error is larger than that.
-    pub certified: bool,
-    /// The cost to expect (ns).
-    pub expected_cost_ns: f64,
-    /// The other models.
-    pub passed_over: Vec<PassedOver>,
-}
-
-/// A model that a plan does not take.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct PassedOver {
-    /// Name of the model, or `solver/scheme`.
-    pub model: String,
-    /// The reason in words.
-    pub why: String,
-}
-
-impl Planned {
-    /// The `decision` on the plan of `scene`.
-    pub fn new(scene: &Scene, decision: &Decision) -> Self {
-        let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
-        let (integrator, plan) = match how {
-            How::ClosedForm => (None, None),
-            How::Integrator(entry, stepping) => (Some((entry, *stepping)), None),
-            How::Sampling(plan) => (None, Some(*plan)),
-        };
-        let space = if let Want::Probability(space) = &scene.want { Some(space) } else { None };
-        let other = |(model, why): &(Candidate, Reason)| PassedOver { model: model.to_string(), why: why.to_string() };
-        Self {
-            model: model.name,
-            solver: integrator.map_or(ExactSolver::NAME, |(entry, _)| entry.name()).to_owned(),
-            scheme: integrator.map(|(_, stepping)| stepping.scheme().name()),
-            method: plan.map(|plan| plan.method().name()),
-            tolerance: integrator.and_then(|(_, stepping)| match stepping.control() {
-                StepControl::Tolerance(tolerance) => Some(tolerance),
-                StepControl::Step(_) => None,
-            }),
-            points: plan.zip(space).and_then(|(plan, space)| plan.points(space).ok()),
-            expected_error: *expected_error,
-            certified: scene.by.as_ref().is_some_and(|by| by.prove),
-            expected_cost_ns: *expected_cost_ns,
-            passed_over: decision.passed_over.iter().map(other).collect(),
+        map.serialize_entry("points", &found.points)?;
+        map.serialize_entry("probability", &found.is_known().then_some(found.probability))?;
+        if let (None, Some(half_width)) = (counts, found.half_width()) {
+            map.serialize_entry("error_bound", &half_width)?;
         }
+        map.serialize_entry("interval", &found.interval)?;
+        map.serialize_entry("interval_kind", &found.interval_in_words())?;
+        map.serialize_entry("proven", &(found.interval_kind == IntervalKind::Proven))?;
+        map.serialize_entry("certified", &integrated.map_or(proven.is_some(), |counts| counts.undecided == 0))?;
+        if let Some(proven) = proven {
+            let names = ["f64", "double_double", "multiprecision"];
+            map.serialize_entry("proven_by", &ByStage(names.into_iter().zip(STAGES).collect(), &proven))?;
+        }
+        if let Some(counts) = integrated {
+            let names = ["coarse", "f64", "finest_tolerance", "double_double", "more_digits"];
+            map.serialize_entry("integrated_by", &ByStage(names.into_iter().zip(Stage::ALL).collect(), counts))?;
+        }
+        // A seed above 2^53 is a text, because readers that take numbers for f64, as JavaScript does, would round it.
+        match found.plan.seed() {
+            Some(seed) if seed > 1 << 53 => map.serialize_entry("seed", &seed.to_string())?,
+            seed => map.serialize_entry("seed", &seed)?,
+        }
+        map.serialize_entry("method", found.plan.method().name())?;
+        map.end()
     }
 }
 
-/// How precise a hand must be.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Precision {
-    /// `up_to`, `any`, `toss_is_not_heads` or `below_smallest`.
-    pub answer: &'static str,
-    /// The largest relative spread; the largest one that was tried where any will do.
-    pub spread: Option<f64>,
-    /// P(heads) at this spread.
-    pub probability: Option<f64>,
-    /// At how many spreads P(heads) was estimated.
-    pub looks: Option<u32>,
-    /// P(heads) at all smaller spreads from the smallest that is tried, as far as the estimates are right.
-    pub at_least: Option<f64>,
-}
+/// The numbers of outcomes by these stages, each with its name.
+struct ByStage<'a>(Vec<(&'static str, Stage)>, &'a dynamics::Counts);
 
-impl From<&LargestSpread> for Precision {
-    fn from(found: &LargestSpread) -> Self {
-        let (answer, found): (_, Option<&SufficientSpread>) = match found {
-            LargestSpread::UpTo(found) => ("up_to", Some(found)),
-            LargestSpread::AtLeast(found) => ("at_least", Some(found)),
-            LargestSpread::Any(found) => ("any", Some(found)),
-            LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
-            LargestSpread::BelowSmallest(_) => ("below_smallest", None),
-        };
-        Self {
-            answer,
-            spread: found.map(|found| found.spread),
-            probability: found.map(|found| found.estimate.probability),
-            looks: found.map(|found| found.looks),
-            at_least: found.map(|found| found.at_least),
-        }
+impl Serialize for ByStage<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(self.0.iter().map(|(name, stage)| (name, self.1.by(*stage))))
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
         Kind::Sample { refuses, plan, fit } => {
             let only_coins = (model.of != of).then_some(Reason::OnlyCoins);
             let refused = only_coins.or_else(|| refuses(space)).map(Err);
-            Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, fit, scene.accuracy))))
+            Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, fit, (space, scene.accuracy)))))
         }
         Kind::Enclosure if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
         Kind::Enclosure => Some((model.into(), Err(Reason::UnknownCost))),
@@ -50,9 +50,21 @@ pub(crate) fn no_integrator_for_a_space() -> InputError {
     }
 }
 
-fn offer(model: &'static Model, plan: fn(u64, u64) -> Plan, fit: Option<Fit>, accuracy: f64) -> Offer {
+fn offer(
+    model: &'static Model,
+    plan: fn(u64, u64) -> Plan,
+    fit: Option<Fit>,
+    (space, accuracy): (&Space, f64),
+) -> Offer {
     let of = |points, expected_error, expected_cost_ns| {
-        Ok(Choice { model, how: How::Sampling(plan(points, SEED)), expected_error, expected_cost_ns })
+        let plan = plan(points, SEED);
+        Ok(Choice {
+            model,
+            how: How::Sampling(plan),
+            expected_error,
+            expected_cost_ns,
+            points: plan.points(space).ok(),
+        })
     };
     match fit {
         None => Err(Reason::TellsNoError),

@@ -32,6 +32,33 @@ pub struct TracePoint {
     pub cos_tilt: f64,
 }
 
+impl TracePoint {
+    /// All numbers in the order of the fields, the attitude as w, x, y, z and the angles as α, β, γ, without signs of 0.
+    pub fn numbers(&self) -> [f64; 15] {
+        let ([w, x, y, z], EulerAngles { alpha, beta, gamma }) = (self.attitude.components(), self.angles);
+        let ([nx, ny, nz], [fx, fy, fz]) = (self.normal.into(), self.face.into());
+        [self.time, w, x, y, z, alpha, beta, gamma, nx, ny, nz, fx, fy, fz, self.cos_tilt].map(|number| number + 0.0)
+    }
+}
+
+/// With the fields `alpha`, `beta` and `gamma` for the angles.
+#[cfg(feature = "serde")]
+impl serde::Serialize for TracePoint {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut fields = to.serialize_struct("TracePoint", 8)?;
+        fields.serialize_field("time", &self.time)?;
+        fields.serialize_field("attitude", &self.attitude.components())?;
+        fields.serialize_field("alpha", &self.angles.alpha)?;
+        fields.serialize_field("beta", &self.angles.beta)?;
+        fields.serialize_field("gamma", &self.angles.gamma)?;
+        fields.serialize_field("normal", &<[f64; 3]>::from(self.normal))?;
+        fields.serialize_field("face", &<[f64; 3]>::from(self.face))?;
+        fields.serialize_field("cos_tilt", &self.cos_tilt)?;
+        fields.end()
+    }
+}
+
 /// The flight of `toss`, of a coin or any rigid body, by `solver` at `points` equally spaced times, launch and landing
 /// included.
 ///

@@ -189,6 +189,8 @@ fn a_plan_finds_the_narrow_part_of_a_space_that_lands_tails() {
         let Answer::Probability(found) = scene.solve().unwrap().answer else { panic!("a probability was asked for") };
         assert!(found.interval.unwrap().contains(probability), "{found:?}, not {probability}");
         assert!(found.half_width().unwrap() <= accuracy, "{found:?}");
+        // More launches than were planned, and the estimate says so.
+        assert_eq!(found.plan.points(&space), Ok(found.points));
     }
 }
 

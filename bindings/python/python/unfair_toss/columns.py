@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -47,11 +46,6 @@ class Counts(ShownAsTable):
 
 STAGES = ("f64", "double_double", "multiprecision")
 """The stages of the proof, from the cheapest on, by their names in JSON."""
-
-
-def stages(numbers: Sequence[int] | None) -> dict[str, int] | None:
-    """The numbers of proven outcomes by the names of the stages."""
-    return None if numbers is None else dict(zip(STAGES, numbers, strict=True))
 
 
 def cos_tilt(
@@ -239,11 +233,9 @@ def count(
         As for ``cos_tilt``.
     """
     launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
-    heads = tails = undecided = 0
-    proven: list[int] | None = [0] * len(STAGES)
+    counts = [0] * (4 + len(STAGES))
     for first, columns in launches.blocks():
-        more = launches.batch.count(columns, first)
-        heads, tails, undecided = heads + more[0], tails + more[1], undecided + more[2]
-        proven = None if proven is None or more[3] is None else [a + b for a, b in zip(proven, more[3], strict=True)]
-    certified = proven is not None and heads + tails + undecided > 0
-    return Counts(heads, tails, undecided, certified, stages(proven))
+        counts = [sum(both) for both in zip(counts, launches.batch.count(columns, first), strict=True)]
+    heads, tails, undecided, without_proof, *by_stage = counts
+    proven_by = None if without_proof else dict(zip(STAGES, by_stage, strict=True))
+    return Counts(heads, tails, undecided, without_proof == 0 and heads + tails + undecided > 0, proven_by)

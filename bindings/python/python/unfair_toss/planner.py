@@ -80,7 +80,5 @@ def plan(
     errors.InputError
         If the question is invalid or no model is accurate enough.
     """
-    model, by, its_scheme, method, tolerance, launches, (error, cost), passed_over = _native.plan(
-        want, of, accuracy, points, solver, scheme
-    )
-    return Choice(model, by, its_scheme, method, tolerance, launches, error, cost, tuple(passed_over))
+    found = _native.plan(want, of, accuracy, points, solver, scheme)
+    return Choice(**found | {"passed_over": tuple(found["passed_over"])})

@@ -62,15 +62,6 @@ class Estimate(ShownAsTable):
         return max(self.probability - lo, hi - self.probability)
 
 
-def _estimate(values: _native._EstimateValues, plan: Plan) -> Estimate:
-    probability, interval, kind, points, counts, proven = values
-    heads, tails, undecided = counts or (None, None, None)
-    by_stage = None if proven is None else dict(proven)
-    return Estimate(
-        probability, interval, kind, points, heads, tails, undecided, proven is not None, by_stage, plan
-    )
-
-
 def merge(parts: Iterable[Tally]) -> Estimate:
     """The estimate from all parts of a plan, in any order.
 
@@ -130,7 +121,7 @@ def estimate(whole: Tally) -> Estimate:
     """
     an(Tally, "whole", whole)
     try:
-        return _estimate(whole._estimate(), whole.plan)
+        return Estimate(**whole._estimate())
     except MalformedError as error:
         raise PartError(str(error), field="parts", valid=error.valid) from None
 
@@ -203,9 +194,9 @@ def probability(
     if solver is not None:
         if parted or progress is not None:
             raise MalformedError("a solver has no parts and no progress", field="solver", valid="None, for parts")
-        return _estimate(_native.estimate_by_solver(space, plan, solver, threads), plan)
+        return Estimate(**_native.estimate_by_solver(space, plan, solver, threads))
     if plan.method == "enclosure" and not parted and progress is None:
-        return _estimate(_native.estimate_by_solver(space, plan, "exact", threads), plan)
+        return Estimate(**_native.estimate_by_solver(space, plan, "exact", threads))
     if not parted:
         return estimate(tally(space, plan, threads=threads, progress=progress))
     # Only here, because what it imports takes as long as all the rest.
@@ -220,5 +211,4 @@ def _planned(
 ) -> Estimate:
     if progress is not None:
         raise MalformedError("progress needs a plan", field="progress", valid="None, or a Plan")
-    values, plan = _native.estimate_by_accuracy(space, accuracy, threads)
-    return _estimate(values, plan)
+    return Estimate(**_native.estimate_by_accuracy(space, accuracy, threads))

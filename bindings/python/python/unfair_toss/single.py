@@ -31,21 +31,9 @@ def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     errors.SolveError
         If the solver cannot go on, or does not solve such a body.
     """
-    (cos_tilt, outcome, stage), (attitude, rate), errors, work, (name, scheme) = _native.land(toss, solver)
-    return Landing(
-        outcome=outcome,
-        certified=stage is not None,
-        proven_by=stage,
-        cos_tilt=cos_tilt,
-        attitude=np.array(attitude),
-        rate=np.array(rate),
-        flight_time=toss.flight_time,
-        norm_error=errors[0],
-        error_estimate=errors[1],
-        solver=name,
-        scheme=scheme,
-        work=Work(*work),
-    )
+    found = _native.land(toss, solver)
+    arrays = {name: np.array(found[name]) for name in ("attitude", "rate")}
+    return Landing(**found | arrays | {"work": Work(**found["work"])})
 
 
 def margins(toss: Toss) -> Margins:
@@ -66,8 +54,7 @@ def margins(toss: Toss) -> Margins:
     errors.SolveError
         For a phase above 2^53 rad.
     """
-    (time, speed, gravity, tilt), (x, y, z), rates, (earlier, later) = _native.margins(toss)
-    return Margins(time, speed, gravity, tilt, (x, y, z), (rates[0], rates[1], rates[2]), (earlier, later))
+    return Margins(**_native.margins(toss))
 
 
 def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
@@ -224,10 +211,7 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     81.16
     """
     counts, _ = combined({"same_side": same_side, "tosses": tosses})
-    ((same, of), (share, these)), mean, (differ, further), rates, cone, people = _native.wobble(**counts, body=body)
-    (over_people, interval, kind), (k, ratio), (angle, ends) = mean, rates, cone or (None, None)
-    spread = None if differ is None else PeopleSpread(*differ)
-    each = np.array(people)
-    return Wobble(
-        same, of, share, these, over_people, interval, kind, spread, further, k, ratio, angle, ends, each[:, 0], each[:, 1:]
-    )
+    found = _native.wobble(**counts, body=body)
+    spread = found["spread"] and PeopleSpread(**found["spread"])
+    arrays = {name: np.array(found[name]) for name in ("each_cone_angle", "each_cone_angle_interval")}
+    return Wobble(**found | arrays | {"spread": spread})

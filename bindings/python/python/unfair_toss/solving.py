@@ -84,7 +84,7 @@ def solve(
     if not isinstance(dense_output, bool):
         raise wrong("dense_output", dense_output, "True or False")
     sol = DenseOutput(toss, solver) if dense_output else None
-    return Solution(times, y, work[0], Work(*work), estimate, sol=sol)
+    return Solution(times, y, work["rhs_calls"], Work(**work), estimate, sol=sol)
 
 
 _SCIPY = {"rk45": "dopri5"}

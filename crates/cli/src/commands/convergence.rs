@@ -3,7 +3,6 @@
 //! paper's Fig. 4.
 
 use sampling::{RunningStep, Sampler};
-use serde::Serialize;
 use toss::Registry;
 
 use crate::failure::Failure;
@@ -45,29 +44,6 @@ impl Args {
         let steps = self.threads.ask(backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
         let columns = || steps.iter().filter_map(RunningStep::columns).collect::<Vec<_>>();
         let draw = || Ok(chart::running(&format!(", {}", self.space.words(&space)), &columns())?);
-        if steps.iter().all(|step| step.undecided == [0, 0]) {
-            return self.series.answer_lines(input, &steps, draw);
-        }
-        self.series.answer_lines(input, &steps.iter().map(Undecided::new).collect::<Vec<_>>(), draw)
-    }
-}
-
-/// A step in a series with undecided launches.
-#[derive(Serialize)]
-struct Undecided {
-    launches: u64,
-    grid: Option<f64>,
-    random: Option<f64>,
-    random_lo: f64,
-    random_hi: f64,
-    grid_undecided: u64,
-    random_undecided: u64,
-}
-
-impl Undecided {
-    fn new(step: &RunningStep) -> Self {
-        let RunningStep { launches, grid, random, random_lo, random_hi, undecided } = *step;
-        let [grid_undecided, random_undecided] = undecided;
-        Self { launches, grid, random, random_lo, random_hi, grid_undecided, random_undecided }
+        self.series.answer_lines(input, &steps, draw)
     }
 }

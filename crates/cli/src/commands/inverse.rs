@@ -46,36 +46,19 @@ struct Rates {
 /// What is known of people and of a wobble from counts.
 #[derive(Serialize)]
 struct Counted {
-    same: u64,
-    tosses: u64,
-    these_flips: [f64; 2],
-    mean_over_people: f64,
-    interval: [f64; 2],
-    interval_kind: String,
-    spread: Option<Differences>,
-    next_person: Option<[f64; 2]>,
-    /// The smallest and the largest ψ (rad).
-    cone_angle_interval: Option<[f64; 2]>,
+    #[serde(flatten)]
+    wobble: Wobble,
     people: Vec<Person>,
     /// How many people tossed nothing.
     absent: usize,
-}
-
-/// How much people differ.
-#[derive(Serialize)]
-struct Differences {
-    sd: f64,
-    interval: [f64; 2],
-    chi2: f64,
-    p_value: f64,
 }
 
 /// A person of several, alone.
 #[derive(Serialize)]
 struct Person {
     person: String,
-    same: u64,
-    tosses: u64,
+    #[serde(flatten)]
+    counts: SameSide,
     probability: f64,
     /// ψ and its interval (rad); `None` if no wobble explains the counts.
     cone_angle: Option<f64>,
@@ -108,10 +91,6 @@ fn people(text: &str) -> Result<Vec<Named>, Failure> {
     Ok(vec![Named { name: "1".to_owned(), counts }])
 }
 
-fn ends(Interval { lo, hi }: Interval) -> [f64; 2] {
-    [lo, hi]
-}
-
 impl Rates {
     fn wanted(coin: Coin, probability: f64) -> Result<Self, Failure> {
         let (cone_angle, inertia_ratio) = (Some(long_flight_cone(probability)?), coin.inertia_ratio());
@@ -121,25 +100,15 @@ impl Rates {
 
     fn counted(coin: Coin, people: &[Named]) -> Result<Self, Failure> {
         let counts: Vec<SameSide> = people.iter().map(|person| person.counts).collect();
-        let found = Wobble::of(&counts).map_err(|source| Failure::value("counts", source))?;
-        let inertia_ratio = coin.inertia_ratio();
-        let rate_ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose()?;
+        let wobble = Wobble::of(&counts).map_err(|source| Failure::value("counts", source))?;
+        let (probability, inertia_ratio) = (wobble.share, coin.inertia_ratio());
+        let rate_ratio = (wobble.mean > 0.5).then(|| rate_ratio(wobble.mean, inertia_ratio)).transpose()?;
+        let cone_angle = wobble.cone.map(|cone| cone.angle);
+        let absent = people.len() - wobble.people;
         let present = people.iter().filter(|person| person.counts.tosses() > 0);
-        let counted = Counted {
-            same: found.counts.same(),
-            tosses: found.counts.tosses(),
-            these_flips: ends(found.these_flips),
-            mean_over_people: found.mean,
-            interval: ends(found.interval),
-            interval_kind: found.interval_kind,
-            spread: found.spread.map(Differences::new),
-            next_person: found.next_person.map(ends),
-            cone_angle_interval: found.cone.map(|cone| cone.interval),
-            people: if found.people > 1 { present.map(Person::new).collect() } else { Vec::new() },
-            absent: people.len() - found.people,
-        };
-        let cone_angle = found.cone.map(|cone| cone.angle);
-        Ok(Self { probability: found.share, inertia_ratio, rate_ratio, cone_angle, counted: Some(counted) })
+        let people = if wobble.people > 1 { present.map(Person::new).collect() } else { Vec::new() };
+        let counted = Some(Counted { wobble, people, absent });
+        Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted })
     }
 
     /// `is_of_a_coin`: whether the coin was given. ψ is the same for all coins, the ratio of the rates is not.
@@ -152,9 +121,10 @@ impl Rates {
             let angle = self.cone_angle.map(|angle| format!("ψ            {}°", angle.to_degrees()));
             return [Some(wanted), ratio, angle, Some(coin)].into_iter().flatten().collect::<Vec<_>>().join("\n");
         };
-        let mut lines = vec![format!("same side    {} of {}, {probability:.6}", counted.same, counted.tosses)];
+        let Wobble { counts, .. } = &counted.wobble;
+        let mut lines = vec![format!("same side    {} of {}, {probability:.6}", counts.same(), counts.tosses())];
         lines.extend(counted.shares());
-        lines.push(format!("ψ            {}", self.angle(counted)));
+        lines.push(format!("ψ            {}", angle(&counted.wobble)));
         lines.extend(ratio.filter(|_| is_of_a_coin).map(|ratio| [ratio, coin]).into_iter().flatten());
         lines.push(
             "assumed      independent flips; long flights from horizontal, all with this ψ; 180° - ψ explains them as well"
@@ -164,48 +134,52 @@ impl Rates {
         lines.extend(counted.table());
         lines.join("\n")
     }
+}
 
-    /// ψ with its interval. At a share of ½ or less it is 90°, and at 1 any angle up to 45° serves.
-    fn angle(&self, Counted { cone_angle_interval, mean_over_people, interval: [lo, _], .. }: &Counted) -> String {
-        let (Some(angle), Some(ends)) = (self.cone_angle, cone_angle_interval) else {
-            return "none: no wobble explains this, as the whole interval is below 1/2".to_owned();
-        };
-        let (angle, [least, most]) = (angle.to_degrees(), ends.map(f64::to_degrees));
-        match *mean_over_people {
-            share if share < 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
-            share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most:.2}°"),
-            _ if *lo <= 0.5 => format!("{angle:.2}°, from {least:.2}° to {most:.2}°, as a share of 1/2 is possible"),
-            _ => format!("{angle:.2}°, from {least:.2}° to {most:.2}°"),
+/// ψ with its interval. At a share of ½ or less it is 90°, and at 1 any angle up to 45° serves.
+fn angle(&Wobble { cone, mean, interval, .. }: &Wobble) -> String {
+    let Some(Cone { angle, interval: ends }) = cone else {
+        return "none: no wobble explains this, as the whole interval is below 1/2".to_owned();
+    };
+    let (angle, [least, most]) = (angle.to_degrees(), ends.map(f64::to_degrees));
+    match mean {
+        share if share < 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
+        share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most:.2}°"),
+        _ if interval.lo <= 0.5 => {
+            format!("{angle:.2}°, from {least:.2}° to {most:.2}°, as a share of 1/2 is possible")
         }
+        _ => format!("{angle:.2}°, from {least:.2}° to {most:.2}°"),
     }
 }
 
 impl Counted {
     /// The lines about the shares of these people, of all, and of a further one.
     fn shares(&self) -> Vec<String> {
-        let Self { these_flips: [least, most], mean_over_people, interval: [lo, hi], interval_kind, people, .. } = self;
-        if people.is_empty() {
+        let Wobble { these_flips, mean, interval: Interval { lo, hi }, interval_kind, spread, next_person, .. } =
+            &self.wobble;
+        let number = self.people.len();
+        if number == 0 {
             return vec![format!("interval     {lo:.6} to {hi:.6} ({interval_kind})")];
         }
-        let number = people.len();
-        let spread = self.spread.as_ref().map_or_else(
+        let spread = spread.map_or_else(
             || "not known, as all landings are the same".to_owned(),
-            |Differences { sd, interval: [lo, hi], p_value, .. }| {
-                let p_value = if *p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") };
+            |Spread { sd, interval: Interval { lo, hi }, p_value, .. }| {
+                let p_value = if p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") };
                 format!("{sd:.4} between people, from {lo:.4} to {hi:.4} (95 %); if all are alike, p = {p_value}")
             },
         );
         let mut lines = vec![
             format!(
-                "these flips  {least:.6} to {most:.6} (clopper-pearson 95 %: the mean of these {number} people, by their flips)"
+                "these flips  {:.6} to {:.6} (clopper-pearson 95 %: the mean of these {number} people, by their flips)",
+                these_flips.lo, these_flips.hi
             ),
             format!(
-                "all people   {mean_over_people:.6}, from {lo:.6} to {hi:.6} (beta-binomial 95 %: the mean over people, of whom these \
+                "all people   {mean:.6}, from {lo:.6} to {hi:.6} (beta-binomial 95 %: the mean over people, of whom these \
                  {number} are a sample)"
             ),
             format!("spread       {spread}"),
         ];
-        lines.extend(self.next_person.map(|[lo, hi]| format!("next person  from {lo:.3} to {hi:.3} (95 %)")));
+        lines.extend(next_person.map(|Interval { lo, hi }| format!("next person  from {lo:.3} to {hi:.3} (95 %)")));
         lines
     }
 
@@ -236,19 +210,12 @@ impl Counted {
     }
 }
 
-impl Differences {
-    fn new(Spread { sd, interval, chi2, p_value }: Spread) -> Self {
-        Self { sd, interval: ends(interval), chi2, p_value }
-    }
-}
-
 impl Person {
     fn new(Named { name, counts }: &Named) -> Self {
         let cone: Option<Cone> = Wobble::of(&[*counts]).ok().and_then(|found| found.cone);
         Self {
             person: name.clone(),
-            same: counts.same(),
-            tosses: counts.tosses(),
+            counts: *counts,
             probability: counts.share(),
             cone_angle: cone.map(|cone| cone.angle),
             cone_angle_interval: cone.map(|cone| cone.interval),
@@ -259,8 +226,8 @@ impl Person {
         let degrees =
             |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| format!("{:.2}", angle.to_degrees()));
         let [least, most] = [0, 1].map(|end| degrees(self.cone_angle_interval.map(|angles| angles[end])));
-        let (share, counts) =
-            (format!("{:.6}", self.probability), [self.same, self.tosses].map(|count| count.to_string()));
-        row([&self.person, &counts[0], &counts[1], &share, &degrees(self.cone_angle), &least, &most])
+        let [same, tosses] = [self.counts.same(), self.counts.tosses()].map(|count| count.to_string());
+        let share = format!("{:.6}", self.probability);
+        row([&self.person, &same, &tosses, &share, &degrees(self.cone_angle), &least, &most])
     }
 }

@@ -33,7 +33,8 @@ pub(crate) struct Args {
     pub(crate) series: SeriesArgs,
 }
 
-/// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, and the 95 % interval of the share.
+/// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, the 95 % interval of the share, and the
+/// number of undecided flights if any of the series is undecided.
 #[derive(Serialize)]
 struct Line {
     cone_angle: f64,
@@ -42,25 +43,8 @@ struct Line {
     share: Option<f64>,
     share_lo: Option<f64>,
     share_hi: Option<f64>,
-}
-
-/// A line in a series with undecided flights.
-#[derive(Serialize)]
-struct Undecided {
-    cone_angle: f64,
-    limit: f64,
-    launches: u64,
-    share: Option<f64>,
-    share_lo: Option<f64>,
-    share_hi: Option<f64>,
-    undecided: u64,
-}
-
-impl Line {
-    fn with(&self, undecided: u64) -> Undecided {
-        let Self { cone_angle, limit, launches, share, share_lo, share_hi } = *self;
-        Undecided { cone_angle, limit, launches, share, share_lo, share_hi, undecided }
-    }
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<u64>,
 }
 
 impl Args {
@@ -73,6 +57,7 @@ impl Args {
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
         let shares = self.threads.ask(backend.sampler(), flights, ask)?;
+        let is_undecided = shares.iter().any(|found| found.estimate.undecided() > 0);
         let line = |found: &LongFlightShare| Line {
             cone_angle: found.cone_angle,
             limit: found.limit,
@@ -80,13 +65,9 @@ impl Args {
             share: found.estimate.is_known().then_some(found.estimate.probability),
             share_lo: found.estimate.interval.map(|interval| interval.lo),
             share_hi: found.estimate.interval.map(|interval| interval.hi),
+            undecided: is_undecided.then(|| found.estimate.undecided()),
         };
         let lines: Vec<Line> = shares.iter().map(line).collect();
-        let draw = || Ok(chart::limit(&shares)?);
-        if shares.iter().all(|found| found.estimate.undecided() == 0) {
-            return self.series.answer_lines(input, &lines, draw);
-        }
-        let undecided = lines.iter().zip(&shares).map(|(line, found)| line.with(found.estimate.undecided()));
-        self.series.answer_lines(input, &undecided.collect::<Vec<_>>(), draw)
+        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
     }
 }

@@ -140,7 +140,7 @@ impl Args {
             return Err(whole.refused(format!("launches {done} to {} are missing after it", points - 1)));
         }
         let found = whole.tally.estimate()?;
-        let answer = Estimate::new(&found, whole.tally.plan());
+        let answer = Estimate { found: &found, integrated: None };
         Ok(self.format.print(input, &answer, || text(&found, "exact")))
     }
 }

@@ -3,8 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use toss::planner::{Integrator, Nanoseconds, WantKind};
-use toss::report::Planned;
+use toss::planner::{Decision, Integrator, Nanoseconds, WantKind};
 use toss::trace::MOST_POINTS;
 use toss::{Error, QuaternionSolver, Registry, Scene, Want};
 
@@ -61,8 +60,7 @@ impl Args {
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        let planned = Planned::new(&scene, &decision);
-        Ok(self.format.print(input, &planned, || text(&planned, decision.choice.model.gives)))
+        Ok(self.format.print(input, &decision, || text(&decision)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -112,24 +110,24 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
     scene.map_err(|source| Failure::Text { path: path.display().to_string(), source })
 }
 
-fn text(planned: &Planned, gives: &str) -> String {
-    let mut settings = planned.solver.clone();
-    settings.extend(planned.scheme.or(planned.method).map(|name| format!(", {name}")));
-    settings.extend(planned.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
-    settings.extend(planned.points.map(|points| format!(", {points} launches")));
-    let error = match planned.expected_error {
+fn text(Decision { choice, passed_over }: &Decision) -> String {
+    let mut settings = choice.solver().to_owned();
+    settings.extend(choice.scheme().or(choice.method()).map(|name| format!(", {name}")));
+    settings.extend(choice.tolerance().map(|tolerance| format!(", tolerance {tolerance:.2e}")));
+    settings.extend(choice.points.map(|points| format!(", {points} launches")));
+    let error = match choice.expected_error {
         0.0 => "none".to_owned(),
-        error if planned.certified => format!("at most {}, proven", rounded_up(error)),
+        error if choice.is_certified() => format!("at most {}, proven", rounded_up(error)),
         error => format!("{error:.1e}"),
     };
     let mut rows = vec![
-        row(["model", planned.model, gives]),
+        row(["model", choice.model.name, choice.model.gives]),
         row(["solver", &settings, ""]),
-        row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(planned.expected_cost_ns))]),
+        row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(choice.expected_cost_ns))]),
     ];
     let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
-    let others = planned.passed_over.iter().zip(heading);
-    rows.extend(others.map(|(other, heading)| row([heading, &other.model, &other.why])));
+    let others = passed_over.iter().zip(heading);
+    rows.extend(others.map(|((model, why), heading)| row([heading, &model.to_string(), &why.to_string()])));
     table(&rows)
 }
 

@@ -2,9 +2,8 @@
 //! interval of the estimate with it, as far as the method has one.
 
 use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
-use toss::planner::How;
-use toss::solvers::{Integration, Proving};
-use toss::{Answer, Backend, Registry, Scene, Solver, Want, report};
+use toss::solvers::Proving;
+use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
 
 use crate::commands::parts::ShardArgs;
 use crate::estimate::text;
@@ -62,14 +61,15 @@ impl Args {
             let plan = self.plan_of(method, &space)?;
             return self.shard.write((&space, plan), backend.sampler(), &self.threads);
         }
-        let (plan, found) = match self.method {
+        let found = match self.method {
             Some(method) => self.by_method(method, &space, &backend)?,
             None => self.by_plan(&space, &backend)?,
         };
-        let chosen = || format!("\nmethod       {}, chosen for an error of {:e}", plan.method(), self.accuracy(&space));
-        Ok(self.format.print(input, &report::Estimate::new(&found, plan), || {
+        let (method, accuracy) = (found.plan.method(), self.accuracy(&space));
+        let chosen = || format!("\nmethod       {method}, chosen for an error of {accuracy:e}");
+        Ok(self.format.print(input, &report::Estimate { found: &found, integrated: None }, || {
             let chosen = if self.method.is_none() { chosen() } else { String::new() };
-            text(&found, backend.solver().name()) + &chosen + &not_reached(&found, plan)
+            text(&found, backend.solver().name()) + &chosen + &not_reached(&found)
         }))
     }
 
@@ -87,9 +87,9 @@ impl Args {
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
         let found = self.threads.ask(Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
         let counts = proving.counts();
-        Ok(self.format.print(input, &report::Estimate::new(&found, plan).integrated(&counts), || {
-            let kinds = Integration::ALL.map(|kind| format!("{kind} {}", counts.by(kind)));
-            format!("{}\nproven by    integration: {}", text(&found, proving.name()), kinds.join(", "))
+        Ok(self.format.print(input, &report::Estimate { found: &found, integrated: Some(&counts) }, || {
+            let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.by(stage)));
+            format!("{}\nproven by    integration: {}", text(&found, proving.name()), stages.join(", "))
         }))
     }
 
@@ -105,14 +105,14 @@ impl Args {
         Ok(plan)
     }
 
-    fn by_method(&self, method: Method, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+    fn by_method(&self, method: Method, space: &Space, backend: &Backend) -> Result<Estimate, Failure> {
         let plan = self.plan_of(method, space)?;
         if let Plan::Enclosure { .. } = plan {
-            return Ok((plan, self.enclosed(backend.sampler(), space, plan)?));
+            return self.enclosed(backend.sampler(), space, plan);
         }
         let launches = (plan.points(space)?, "launches");
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
-        Ok((plan, self.threads.ask(backend.sampler(), launches, ask)?))
+        self.threads.ask(backend.sampler(), launches, ask)
     }
 
     /// The estimate of a plan by enclosure. Who waits sees the cells and how narrow the enclosure is.
@@ -128,20 +128,17 @@ impl Args {
     }
 
     /// The estimate by the method and with the launches that the planner chooses for the accuracy.
-    fn by_plan(&self, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+    fn by_plan(&self, space: &Space, backend: &Backend) -> Result<Estimate, Failure> {
         if !backend.sampler().is_exact() {
             return Err(Failure::usage("solver", "--solver needs --method: a plan takes the exact motion"));
         }
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        let (choice, answer) = self
+        let (_, answer) = self
             .threads
             .count("launches", |counter| scene.choose_and_run(Registry::standard(), &|more| counter.inc(more)))??;
-        match (choice.how, answer) {
-            (How::Sampling(plan), Answer::Probability(found)) => Ok((plan, *found)),
-            _ => Err(no_sample()),
-        }
+        if let Answer::Probability(found) = answer { Ok(*found) } else { Err(no_sample()) }
     }
 
     fn accuracy(&self, space: &Space) -> f64 {
@@ -151,9 +148,9 @@ impl Args {
 }
 
 /// A line that says so if an enclosure took too many cells for its accuracy.
-fn not_reached(found: &Estimate, plan: Plan) -> String {
-    match (plan, found.half_width()) {
-        (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked(plan) => {
+fn not_reached(found: &Estimate) -> String {
+    match (found.plan, found.half_width()) {
+        (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked() => {
             let cells = found.points;
             format!(
                 "\naccuracy     {reached:.1e}, and not the {accuracy:e} that was asked for: more cells than {cells} are too many, or roundings forbid it"

@@ -4,10 +4,10 @@
 
 use dynamics::quantity::Given;
 use sampling::{
-    Coordinate, HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread,
+    Coordinate, HAND, Interval, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Scrambled, Space,
+    SufficientSpread,
 };
 use serde::Serialize;
-use toss::report::Precision;
 use toss::{Error, Outcome, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
@@ -38,8 +38,8 @@ pub(crate) struct Args {
 #[derive(Serialize)]
 struct Spreads {
     #[serde(flatten)]
-    together: Precision,
-    interval: Option<[f64; 2]>,
+    together: LargestSpread,
+    interval: Option<Interval>,
     interval_kind: Option<String>,
     alone: Vec<Alone>,
 }
@@ -49,14 +49,14 @@ struct Spreads {
 struct Alone {
     input: &'static str,
     #[serde(flatten)]
-    found: Precision,
+    found: LargestSpread,
 }
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = self.space()?;
-        let (together, alone) = self.threads.run(|| self.answers(&space))??;
-        Ok(self.format.print(input, &Spreads::new(&together, &alone), || text(self.heads, &together, &alone)))
+        let spreads = self.threads.run(|| self.answers(&space))??;
+        Ok(self.format.print(input, &spreads, || text(self.heads, &spreads)))
     }
 
     /// The space that consists of the toss alone.
@@ -75,40 +75,23 @@ impl Args {
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.
-    fn answers(&self, space: &Space) -> Result<(LargestSpread, Vec<(Coordinate, LargestSpread)>), Error> {
+    fn answers(&self, space: &Space) -> Result<Spreads, Error> {
         let sampler = sampling::Sampler::exact();
         let default = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
         let scrambled = Scrambled::new(self.points.unwrap_or(default), self.seed);
         let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
-        let alone = HAND.into_iter().map(|of| Ok((of, largest(&[of])?)));
-        Ok((largest(&HAND)?, alone.collect::<Result<_, Error>>()?))
+        let alone = HAND.map(|of| Ok(Alone { input: of.name(), found: largest(&[of])? }));
+        let together = largest(&HAND)?;
+        let estimate = together.sufficient().map(|found| &found.estimate);
+        let interval = estimate.and_then(|found| found.interval);
+        let interval_kind = estimate.map(|found| found.interval_kind.to_string());
+        Ok(Spreads { together, interval, interval_kind, alone: alone.into_iter().collect::<Result<_, Error>>()? })
     }
 }
 
-/// The spread with what is known of it, if there is one.
-fn sufficient(found: &LargestSpread) -> Option<&SufficientSpread> {
-    match found {
-        LargestSpread::UpTo(found) | LargestSpread::AtLeast(found) | LargestSpread::Any(found) => Some(found),
-        LargestSpread::TossIsNotHeads(_) | LargestSpread::BelowSmallest(_) => None,
-    }
-}
-
-impl Spreads {
-    fn new(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Self {
-        let estimate = sufficient(together).map(|found| &found.estimate);
-        let alone = alone.iter().map(|(of, found)| Alone { input: of.name(), found: found.into() });
-        Self {
-            together: together.into(),
-            interval: estimate.and_then(|found| found.interval).map(|interval| [interval.lo, interval.hi]),
-            interval_kind: estimate.map(|found| found.interval_kind.to_string()),
-            alone: alone.collect(),
-        }
-    }
-}
-
-fn text(heads: f64, together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
+fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> String {
     let mut lines = vec![format!("spread       {}", in_words(together))];
-    if let Some(SufficientSpread { estimate, looks, at_least, .. }) = sufficient(together) {
+    if let Some(SufficientSpread { estimate, looks, at_least, .. }) = together.sufficient() {
         lines.push(format!("P(heads)     {:.6} at this spread", estimate.probability));
         let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
@@ -123,7 +106,7 @@ fn text(heads: f64, together: &LargestSpread, alone: &[(Coordinate, LargestSprea
             );
         }
         let each = alone.iter().zip(["ωx", "ωy", "ωz", "v0"]);
-        let each: Vec<String> = each.map(|((_, found), name)| format!("{name} {}", in_short(found))).collect();
+        let each: Vec<String> = each.map(|(one, name)| format!("{name} {}", in_short(&one.found))).collect();
         lines.push(format!("each alone   {}", each.join(", ")));
         let assumed = "independent normal inputs, with the standard deviation spread·|value|";
         lines.push(format!("assumed      {assumed}"));
@@ -152,7 +135,7 @@ fn in_words(found: &LargestSpread) -> String {
 
 /// The spread in percent, to three digits.
 fn in_short(found: &LargestSpread) -> String {
-    match (found, sufficient(found)) {
+    match (found, found.sufficient()) {
         (LargestSpread::Any(_), _) => "any".to_owned(),
         (_, Some(sufficient)) => {
             let percent = 100.0 * sufficient.spread;

@@ -1,7 +1,7 @@
 //! `unfair-toss toss`: one toss, one answer.
 
-use toss::report::{Landing, Margin, Moments, Slopes};
-use toss::{Body, Registry, Work};
+use toss::report::{Landing, Moments};
+use toss::{Body, Margin, Registry, Sensitivity, TimeOfFlight, Toss, Work};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, fixed};
@@ -26,26 +26,28 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let (toss, landing) = if self.prove {
             let (toss, solver) = (self.flight.toss.toss()?, self.flight.solver.prover(registry)?);
-            (toss, Landing::integrated(&toss, &solver)?.with_sensitivity(&toss)?)
+            (toss, Landing::integrated(&toss, &solver)?)
         } else {
             let (toss, backend) = self.flight.parts(registry)?;
-            (toss, Landing::new(&toss, &backend, self.margin)?.with_sensitivity(&toss)?)
+            (toss, Landing::new(&toss, &backend)?)
         };
-        let landing = landing.rounded(&toss, &self.flight.toss.rounding()?)?;
-        Ok(self.format.print(input, &landing, || text(&landing, &toss.body)))
+        let has_margin = self.margin || toss.body.coin().is_some();
+        let landing = if has_margin { landing.with_margin(&toss)? } else { landing };
+        let landing = landing.with_sensitivity(&toss)?.rounded(&toss, &self.flight.toss.rounding()?)?;
+        Ok(self.format.print(input, &landing, || text(&landing, &toss)))
     }
 }
 
-fn text(landing: &Landing, body: &Body) -> String {
+fn text(landing: &Landing, toss: &Toss) -> String {
     let [w, x, y, z] = landing.attitude.map(|part| fixed(part, 9));
     let scheme = landing.scheme.map(|name| format!(", {name}")).unwrap_or_default();
     let mut lines = vec![
         format!("outcome      {}{}", landing.outcome, landing.remark),
-        changes(landing),
+        changes(landing, toss.launch.time_of_flight()),
         format!("cos θ        {}", shortest(landing.cos_tilt)),
         format!("flight time  {} s", landing.flight_time),
         format!("attitude     w {w}  x {x}  y {y}  z {z}"),
-        moments(&landing.coin, body),
+        moments(&landing.coin, &toss.body),
         format!("solver       {}{scheme}", landing.solver),
     ];
     if let (Some(cos_tilt), Some(attitude)) = (landing.error_bound, landing.attitude_error_bound) {
@@ -76,12 +78,12 @@ fn moments(Moments { i1, i2, i3, inertia }: &Moments, body: &Body) -> String {
 }
 
 /// What a change of the launch does: the margin, or the sensitivity where it was not searched.
-fn changes(landing: &Landing) -> String {
-    let slopes = |Slopes { rate: [x, y, z], time }: &Slopes| {
-        let [x, y, z, time] = [*x, *y, *z, *time].map(digits);
+fn changes(landing: &Landing, flight: TimeOfFlight) -> String {
+    let slopes = |found: &Sensitivity| {
+        let [x, y, z, time] = <[f64; 4]>::from(found.cos_tilt).map(digits);
         format!("sensitivity  cos θ by {x} per rad/s in ωx, {y} in ωy, {z} in ωz,\n             {time} per s in time")
     };
-    let margin = landing.margin.as_ref().map(|found| format!("margin       {}", margin(found)));
+    let margin = landing.margin.as_ref().map(|found| format!("margin       {}", margin(found, flight)));
     let unknown = || "sensitivity  beyond the range of numbers".to_owned();
     margin.or_else(|| landing.sensitivity.as_ref().map(slopes)).unwrap_or_else(unknown)
 }
@@ -92,7 +94,7 @@ fn shortest(number: f64) -> String {
 }
 
 /// In two lines, which the column of the answers fits.
-fn margin(margin: &Margin) -> String {
+fn margin(margin: &Margin, flight: TimeOfFlight) -> String {
     let nowhere = [margin.time, margin.speed, margin.gravity].iter().all(Option::is_none);
     let searched = margin.time_range.filter(|[_, later]| nowhere && later.is_finite());
     let searched = searched.map(|[earlier, later]| format!(" from -{} s to +{} s", short(earlier), short(later)));
@@ -107,10 +109,10 @@ fn margin(margin: &Margin) -> String {
     });
     let rates: Vec<String> = rates.collect();
     let tilt = change(margin.tilt, "rad", "tilt");
-    let rest = if margin.thrown {
-        format!("{}, {}{searched}, {tilt}", change(margin.speed, "m/s", "v0"), change(margin.gravity, "m/s²", "g"))
-    } else {
+    let rest = if let TimeOfFlight::Given(_) = flight {
         format!("{}{searched}, {tilt}", change(margin.time, "s", "the time of flight"))
+    } else {
+        format!("{}, {}{searched}, {tilt}", change(margin.speed, "m/s", "v0"), change(margin.gravity, "m/s²", "g"))
     };
     format!("{rest},\n             {}", rates.join(", "))
 }

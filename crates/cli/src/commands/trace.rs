@@ -8,7 +8,6 @@ use toss::{Registry, Solver, Toss, TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::json::without_sign_of_zero;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
@@ -35,25 +34,17 @@ pub(crate) struct Args {
     pub(crate) series: SeriesArgs,
 }
 
-/// A point as JSON. As CSV its numbers stand in a line, in the columns of [`COLUMNS`].
+/// A point, with `--prove` with the bounds of the errors of its cos θ and of its quaternion. As CSV its numbers stand in a line,
+/// in the columns of [`COLUMNS`].
 #[derive(Serialize)]
 struct Point {
-    time: f64,
-    attitude: [f64; 4],
-    alpha: f64,
-    beta: f64,
-    gamma: f64,
-    normal: [f64; 3],
-    face: [f64; 3],
-    cos_tilt: f64,
+    #[serde(flatten)]
+    at: TracePoint,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_bound: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     attitude_error_bound: Option<f64>,
 }
-
-/// A point, and the bounds of the errors of its cos θ and of its quaternion.
-type Bounded = (TracePoint, Option<[f64; 2]>);
 
 #[derive(Serialize)]
 struct Points<'a> {
@@ -65,8 +56,7 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let (toss, backend) = self.flight.parts(registry)?;
-        let flight = self.flight(registry, &toss, backend.solver())?;
-        let points: Vec<Point> = flight.iter().map(Point::from).collect();
+        let points = self.flight(registry, &toss, backend.solver())?;
         let data = |format| match format {
             DataFormat::Csv => csv(&points),
             DataFormat::Json => output::json(input, &Points { solver: backend.solver().name(), points: &points }),
@@ -82,7 +72,7 @@ impl Args {
     }
 
     /// The points, with their bounds if they are asked for.
-    fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
+    fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Point>, Failure> {
         // Who asks for a chart alone may not care for the number of points.
         let points = self.points.or(self.series.has_chart().then_some(DEFAULT_POINTS));
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
@@ -92,27 +82,26 @@ impl Args {
                 (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
                 (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,
             };
-            let bounds = |EnclosedPoint { point, certificate }| {
-                (point, Some([certificate.error_bound(), certificate.attitude_error_bound()]))
+            let bounded = |EnclosedPoint { point, certificate }| Point {
+                at: point,
+                error_bound: Some(certificate.error_bound()),
+                attitude_error_bound: Some(certificate.attitude_error_bound()),
             };
-            return Ok(enclosed.into_iter().map(bounds).collect());
+            return Ok(enclosed.into_iter().map(bounded).collect());
         }
         let flight = match (points, self.dt) {
             (_, Some(step)) => trace_every(solver, toss, step)?,
             (points, None) => trace(solver, toss, points.ok_or_else(missing)?)?,
         };
-        Ok(flight.into_iter().map(|point| (point, None)).collect())
+        let point = |at| Point { at, error_bound: None, attitude_error_bound: None };
+        Ok(flight.into_iter().map(point).collect())
     }
 }
 
 impl Point {
     /// The numbers of a line of CSV.
     fn numbers(&self) -> Vec<f64> {
-        let Self { time, attitude, alpha, beta, gamma, normal, face, cos_tilt, error_bound, attitude_error_bound } =
-            self;
-        let angles = [*alpha, *beta, *gamma];
-        let first = [*time].into_iter().chain(*attitude).chain(angles).chain(*normal).chain(*face).chain([*cos_tilt]);
-        first.map(without_sign_of_zero).chain(*error_bound).chain(*attitude_error_bound).collect()
+        self.at.numbers().into_iter().chain(self.error_bound).chain(self.attitude_error_bound).collect()
     }
 }
 
@@ -124,21 +113,4 @@ fn csv(points: &[Point]) -> String {
     let width = points[0].numbers().len();
     let heading = COLUMNS.split(',').take(width).collect::<Vec<_>>().join(",");
     output::csv_of_numbers(&heading, points.iter().map(Point::numbers))
-}
-
-impl From<&Bounded> for Point {
-    fn from((point, bounds): &Bounded) -> Self {
-        Self {
-            time: point.time,
-            attitude: point.attitude.components(),
-            alpha: point.angles.alpha,
-            beta: point.angles.beta,
-            gamma: point.angles.gamma,
-            normal: point.normal.into(),
-            face: point.face.into(),
-            cos_tilt: point.cos_tilt,
-            error_bound: bounds.map(|[bound, _]| bound),
-            attitude_error_bound: bounds.map(|[_, bound]| bound),
-        }
-    }
 }

@@ -194,7 +194,7 @@ mod tests {
 
     use super::super::proving::BLOCK;
     use super::*;
-    use crate::certificate::Stage;
+    use dynamics::Stage;
 
     const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
 
@@ -219,9 +219,9 @@ mod tests {
             let number = |of: Outcome| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
             let counted = batch.count().unwrap();
             let expected = (number(Outcome::Heads), number(Outcome::Tails), length as u64);
-            let found = (counted.heads(), counted.tails(), counted.by(Stage::F64));
+            let found = (counted.heads, counted.tails, counted.by(Stage::F64));
             assert_eq!(found, expected, "{length} at {}", level.name());
-            assert!(length < 20 || (counted.heads() > 3 && counted.tails() > 3), "{counted:?}");
+            assert!(length < 20 || (counted.heads > 3 && counted.tails > 3), "{counted:?}");
         }
     }
 

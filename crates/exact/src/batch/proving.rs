@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use dynamics::{Error, Outcome};
+use dynamics::{Error, Outcome, Stage};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
-use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::certificate::{Certificate, ProvenCounts};
 
 /// Number of tosses that are filtered together, before the undecided ones among them are proven one by one.
 pub(super) const BLOCK: usize = 512;

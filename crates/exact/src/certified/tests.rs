@@ -47,7 +47,7 @@ fn on_edge() -> Attitude {
 #[test]
 fn exact_ties_are_undecided_and_nothing_else_is() {
     let certified = |k, rate, time| certify_coin(&toss(k, rate, on_edge(), time)).unwrap();
-    let tie = Certificate::new(Outcome::Undecided, Stage::Multiprecision);
+    let tie = Certificate::new(Outcome::Undecided, Stage::MoreDigits);
     // A coin at rest, one that lands at once, two in pure spin, and two whose S is vertical and in the coin's plane.
     for (k, rate, time) in [
         (1.5, [0.0; 3], 1.0),
@@ -73,7 +73,7 @@ fn exact_ties_are_undecided_and_nothing_else_is() {
         ([-1.0, 2.0, 3.0], 1e-310, Outcome::Heads),
     ] {
         let found = certified(1.5, rate, time);
-        assert_eq!((found.outcome(), found.stage()), (outcome, Stage::Multiprecision), "{rate:?} {time}");
+        assert_eq!((found.outcome(), found.stage()), (outcome, Stage::MoreDigits), "{rate:?} {time}");
     }
 }
 
@@ -122,7 +122,7 @@ fn the_cheapest_stage_that_can_decides() {
     let near_edge = |tilt| certify_coin(&toss(1.0, [0.0; 3], Attitude::about_x(tilt), 1.0)).unwrap().stage();
     assert_eq!(near_edge(quarter), Stage::DoubleDouble);
     let tiny = toss(1.0, [1e-20, 7.0, 0.0], on_edge(), 1.0);
-    assert_eq!(certify_coin(&tiny).unwrap().stage(), Stage::Multiprecision);
+    assert_eq!(certify_coin(&tiny).unwrap().stage(), Stage::MoreDigits);
 }
 
 /// 40 neighbouring times around each of 200 landings on edge, and launches that are not flat or leave the range.
@@ -300,8 +300,8 @@ fn tosses_are_counted_by_face_and_the_first_without_an_outcome_is_named() {
     let tails = toss(1.5, [3.0, 0.0, 0.0], Attitude::IDENTITY, 1.0);
     let tie = toss(1.5, [0.0, 0.0, 7.0], on_edge(), 1.0);
     let counts = ProvenCounts::of([tails, heads, tie, heads, heads].map(Toss::from)).unwrap();
-    assert_eq!((counts.heads(), counts.tails(), counts.ties()), (3, 1, 1));
-    assert_eq!(counts.by(Stage::Multiprecision), 1);
+    assert_eq!((counts.heads, counts.tails, counts.undecided), (3, 1, 1));
+    assert_eq!(counts.by(Stage::MoreDigits), 1);
     let too_long = toss(1.5, [1e16, 0.0, 0.0], Attitude::IDENTITY, 1.0);
     let error = ProvenCounts::of([heads, too_long, too_long].map(Toss::from)).unwrap_err();
     assert!(matches!(error, Error::Launch { index: 1, .. }), "{error}");

@@ -6,12 +6,12 @@
 //! about its principal axes, whose formula the exact sign of E tells. One given by a tensor takes doubling in the frame of
 //! the tensor, which has no cases.
 
-use dynamics::{Error, Outcome, SolveError, Toss};
+use dynamics::{Error, Outcome, SolveError, Stage, Toss};
 use numerics::{Ball, Elementary, WideBall};
 
 use super::tensor_toss::{Landed, Question, climb, climb_from_double_double};
 use super::{ExactMotion, TO_F64, cos_tilt};
-use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::certificate::{Certificate, ProvenCounts};
 use crate::certified::{self, certify_coin};
 use crate::given::{in_digits, in_double_double, rounded, scaled};
 use crate::motion::{COS_TILT_ERROR, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
@@ -49,7 +49,7 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
         return Ok(Certificate::new(outcome, Stage::DoubleDouble));
     }
     let outcome = DIGITS.iter().find_map(|digits| by_digits(toss, *digits));
-    let proven = |outcome| Certificate::new(outcome, Stage::Multiprecision);
+    let proven = |outcome| Certificate::new(outcome, Stage::MoreDigits);
     Ok(outcome.map_or_else(Certificate::without_proof, proven))
 }
 
@@ -61,7 +61,7 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 fn certify_tensor(toss: &Toss) -> Result<Certificate, SolveError> {
     ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
     if let Some(sign) = sign_at_rest(toss) {
-        return Ok(Certificate::new(Outcome::of(sign, 0.0), Stage::Multiprecision));
+        return Ok(Certificate::new(Outcome::of(sign, 0.0), Stage::MoreDigits));
     }
     let found = climb(toss, &Sign);
     Ok(found.map_or_else(Certificate::without_proof, |(outcome, stage)| Certificate::new(outcome, stage)))
@@ -288,7 +288,7 @@ mod tests {
         let counts = ProvenCounts::of(few.iter().copied()).unwrap();
         let heads = few.iter().filter(|toss| certify(toss).unwrap().outcome() == Outcome::Heads).count() as u64;
         assert!((5..35).contains(&heads));
-        assert_eq!((counts.heads(), counts.tails(), counts.total()), (heads, 40 - heads, 40));
+        assert_eq!((counts.heads, counts.tails, counts.total()), (heads, 40 - heads, 40));
         let turning = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
         let endless = Toss { launch: turning, ..few[0] };
         let failed = ProvenCounts::of([few[0], few[1], endless, few[2], endless]).unwrap_err();

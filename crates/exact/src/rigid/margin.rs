@@ -26,12 +26,12 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     }
     let outcome = certify(toss)?.outcome();
     if outcome == Outcome::Undecided {
-        return Ok(Margin::on_edge(&toss.launch, 0.0, 0.0));
+        return Ok(Margin::on_edge(&toss.launch, 0.0, Some([0.0; 2])));
     }
     let (time, speed, gravity, time_range) = of_flight(toss, outcome);
     let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
-    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range, time_range })
+    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range, time_range: Some(time_range) })
 }
 
 /// A flip, if a search found one, and how far the search went.

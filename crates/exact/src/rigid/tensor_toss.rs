@@ -3,7 +3,7 @@
 //! an answer.
 
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{AngleUnit, Toss};
+use dynamics::{AngleUnit, Stage, Toss};
 use numerics::big::exactly;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
@@ -12,7 +12,6 @@ use super::Regime;
 use super::doubling::Curve;
 use super::quaternion::Quaternion;
 use super::tensor::{Symmetric, cross, dot};
-use crate::certificate::Stage;
 use crate::given::{in_digits, right_to_25_u2, right_to_roundings, rounded, scaled, vertical_in_double_double};
 
 /// Digits of the first stage after double-double, and of the last. A flight of 10^6 rad next to a spin about the middle axis,
@@ -215,7 +214,7 @@ pub(super) fn climb_from_double_double<Q: Question>(
         };
         question.answer(&landed)
     });
-    found.map(|answer| (answer, Stage::Multiprecision))
+    found.map(|answer| (answer, Stage::MoreDigits))
 }
 
 /// J, ω and m = Jω exactly, but for a common factor of each.

@@ -48,8 +48,8 @@ fn counts_match_the_outcomes() {
         for level in SimdLevel::all() {
             let mut left = 0;
             let counts = Batch::new(tosses).on(level).count_and(|_| left += 1).unwrap();
-            assert_eq!((counts.heads(), counts.tails()), (all(Outcome::Heads), all(Outcome::Tails)));
-            assert_eq!((counts.ties(), counts.total()), (all(Outcome::Undecided), 2000));
+            assert_eq!((counts.heads, counts.tails), (all(Outcome::Heads), all(Outcome::Tails)));
+            assert_eq!((counts.undecided, counts.total()), (all(Outcome::Undecided), 2000));
             assert!((1..50).contains(&left), "the filter left {left}");
             assert_eq!(Batch::new(tosses).on(level).count(), Ok(counts));
         }

@@ -1,9 +1,7 @@
-//! What a proof by integration states: an [`IntegratedCertificate`] with its [`Integration`], the kind of flight that
-//! decided. Only the proofs of this crate can make a certificate, so that no other code can pass off an estimate as a proof.
+//! What a proof by integration states: an [`IntegratedCertificate`] with the [`Stage`] that decided. Only the proofs of
+//! this crate can make a certificate, so that no other code can pass off an estimate as a proof.
 
-use std::fmt;
-
-use dynamics::{Landing, Outcome, Tilt, Work};
+use dynamics::{Counts, Landing, Outcome, Stage, Tilt, Work};
 use numerics::UNIT_ROUNDOFF;
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
@@ -21,7 +19,7 @@ pub struct IntegratedCertificate {
     pub(super) landing: Landing,
     pub(super) error_bound: f64,
     pub(super) attitude_error_bound: f64,
-    pub(super) integration: Integration,
+    pub(super) stage: Stage,
 }
 
 impl IntegratedCertificate {
@@ -61,8 +59,8 @@ impl IntegratedCertificate {
     }
 
     /// The arithmetic of the flight that decided the outcome.
-    pub fn integration(&self) -> Integration {
-        self.integration
+    pub fn stage(&self) -> Stage {
+        self.stage
     }
 
     /// The cost of all flights that it took.
@@ -79,42 +77,18 @@ impl IntegratedCertificate {
         Tilt { cos_tilt, error: Some(error) }
     }
 
+    /// The outcome as counts.
+    pub(super) fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        counts.add(self.outcome);
+        counts.add_by(self.stage, 1);
+        counts
+    }
+
     /// The same landing, with the work of the flight `before` it, too.
     pub(super) fn after(mut self, before: &Self) -> Self {
         self.landing.work = before.landing.work + self.landing.work;
         self
-    }
-}
-
-/// The arithmetic of the flight that proved an outcome, from the cheapest to the most accurate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Integration {
-    /// f64, by Taylor series with a tolerance of 1e-3, which outcomes of coins alone take first.
-    Coarse,
-    /// f64, with the solver's own steps.
-    AsConfigured,
-    /// f64, by Taylor series with the finest tolerance.
-    Finest,
-    /// Double-double arithmetic.
-    DoubleDouble,
-    /// 192 binary digits or more.
-    MoreDigits,
-}
-
-impl Integration {
-    /// All of them, from the cheapest to the most accurate.
-    pub const ALL: [Self; 5] = [Self::Coarse, Self::AsConfigured, Self::Finest, Self::DoubleDouble, Self::MoreDigits];
-
-    /// Its name, in words.
-    pub fn name(self) -> &'static str {
-        ["coarse", "f64", "finest tolerance", "double-double", "more digits"][self as usize]
-    }
-}
-
-/// Writes the [name](Integration::name).
-impl fmt::Display for Integration {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
     }
 }
 
@@ -152,12 +126,5 @@ mod tests {
             let all = IntegratedCertificate { attitude_error_bound: bound, ..found };
             assert_eq!(all.angle_bound(), std::f64::consts::PI, "{bound}");
         }
-    }
-
-    #[test]
-    fn integrations_are_named_as_they_are_printed() {
-        let names = Integration::ALL.map(|integration| integration.to_string());
-        assert_eq!(names, ["coarse", "f64", "finest tolerance", "double-double", "more digits"]);
-        assert_eq!(format!("{:>8}|{:<7}|", Integration::AsConfigured, Integration::Coarse), "     f64|coarse |");
     }
 }

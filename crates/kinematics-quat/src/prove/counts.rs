@@ -1,42 +1,23 @@
 //! [`Proving`], a solver whose every outcome is proven by integration, with the counts of its proofs. Their fields are
 //! private, so that only proven outcomes are counted.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::ops::Deref;
+use std::sync::{Mutex, PoisonError};
 
-use dynamics::{Error, Landing, Outcome, SolveError, Solver, Stepping, Tilt, Toss};
+use dynamics::{Counts, Error, Landing, SolveError, Solver, Stepping, Tilt, Toss};
 use numerics::lanes::SimdLevel;
 
-use crate::prove::certificate::{IntegratedCertificate, Integration};
 use crate::solver::QuaternionSolver;
 
-/// Numbers of outcomes that were proven by integration.
+/// Numbers of outcomes that were proven by integration. The most digits left those undecided that are, such as ties.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct IntegratedCounts {
-    heads: u64,
-    tails: u64,
-    undecided: u64,
-    by: [u64; Integration::ALL.len()],
-}
+pub struct IntegratedCounts(Counts);
 
-impl IntegratedCounts {
-    /// Number of tosses that are proven to land heads.
-    pub fn heads(&self) -> u64 {
-        self.heads
-    }
+impl Deref for IntegratedCounts {
+    type Target = Counts;
 
-    /// Number of tosses that are proven to land tails.
-    pub fn tails(&self) -> u64 {
-        self.tails
-    }
-
-    /// Number of tosses that the most digits left undecided, such as ties.
-    pub fn undecided(&self) -> u64 {
-        self.undecided
-    }
-
-    /// Number of tosses that an integration of this kind decided, or left undecided as the last one.
-    pub fn by(&self, integration: Integration) -> u64 {
-        self.by[integration as usize]
+    fn deref(&self) -> &Counts {
+        &self.0
     }
 }
 
@@ -46,9 +27,7 @@ impl IntegratedCounts {
 #[derive(Debug)]
 pub struct Proving {
     solver: QuaternionSolver,
-    /// Of heads, tails and undecided tosses.
-    outcomes: [AtomicU64; 3],
-    by: [AtomicU64; Integration::ALL.len()],
+    counts: Mutex<Counts>,
 }
 
 impl Proving {
@@ -58,26 +37,18 @@ impl Proving {
     /// [`SolveError::NotProven`] for a solver that proves nothing.
     pub fn new(solver: QuaternionSolver) -> Result<Self, SolveError> {
         solver.require_proofs()?;
-        Ok(Self { solver, outcomes: Default::default(), by: Default::default() })
+        Ok(Self { solver, counts: Mutex::default() })
     }
 
     /// The numbers of tosses that were solved so far.
     pub fn counts(&self) -> IntegratedCounts {
-        let read = |count: &AtomicU64| count.load(Ordering::Relaxed);
-        let [heads, tails, undecided] = self.outcomes.each_ref().map(read);
-        IntegratedCounts { heads, tails, undecided, by: self.by.each_ref().map(read) }
+        IntegratedCounts(*self.counts.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Counts an outcome that was proven, and gives its cos θ.
-    fn counted(&self, found: &IntegratedCertificate) -> Tilt {
-        let outcome = match found.outcome() {
-            Outcome::Heads => 0,
-            Outcome::Tails => 1,
-            Outcome::Undecided => 2,
-        };
-        self.outcomes[outcome].fetch_add(1, Ordering::Relaxed);
-        self.by[found.integration() as usize].fetch_add(1, Ordering::Relaxed);
-        found.tilt()
+    /// Counts outcomes that were proven.
+    fn count(&self, counts: Counts) {
+        let mut all = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        *all = *all + counts;
     }
 }
 
@@ -96,23 +67,29 @@ impl Solver for Proving {
     }
 
     fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
-        let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).remove(0);
-        Ok(self.counted(&found?))
+        let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).remove(0)?;
+        self.count(found.counts());
+        Ok(found.tilt())
     }
 
     fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
-        for (index, found) in self.solver.decide(tosses, SimdLevel::widest()).into_iter().enumerate() {
+        let mut counts = Counts::default();
+        let mut each = self.solver.decide(tosses, SimdLevel::widest()).into_iter().enumerate();
+        let done = each.try_for_each(|(index, found)| {
             let found = found.map_err(|source| Error::of_launch(index, &tosses[index], source))?;
-            out[index] = self.counted(&found);
-        }
-        Ok(())
+            counts = counts + found.counts();
+            out[index] = found.tilt();
+            Ok(())
+        });
+        self.count(counts);
+        done
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Body, Coin, Formulation, Launch, Scheme, TimeOfFlight, Tosses};
+    use dynamics::{Attitude, Body, Coin, Formulation, Launch, Outcome, Scheme, Stage, TimeOfFlight, Tosses};
 
     use super::*;
 
@@ -144,12 +121,12 @@ mod tests {
             }
             let counts = proving.counts();
             let of = |outcome| 2 * certificates.iter().filter(|each| each.outcome() == outcome).count() as u64;
-            let counted = [counts.heads(), counts.tails(), counts.undecided()];
+            let counted = [counts.heads, counts.tails, counts.undecided];
             assert_eq!(counted, [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(of));
-            assert_eq!(Integration::ALL.map(|kind| counts.by(kind)).iter().sum::<u64>(), 8);
+            assert_eq!(Stage::ALL.map(|kind| counts.by(kind)).iter().sum::<u64>(), 8);
             let coarse = certificates.iter().filter(|each| each.outcome() != Outcome::Undecided).count() as u64;
-            assert_eq!(counts.by(Integration::Coarse), 2 * coarse, "none of these is near an edge");
-            assert_eq!(counts.undecided() > 0, attitude == edge, "a coin that does not turn stays on its edge");
+            assert_eq!(counts.by(Stage::Coarse), 2 * coarse, "none of these is near an edge");
+            assert_eq!(counts.undecided > 0, attitude == edge, "a coin that does not turn stays on its edge");
         }
         assert!(Proving::new(QuaternionSolver::new(taylor, Formulation::RAW)).is_err());
     }
@@ -177,14 +154,14 @@ mod tests {
             assert_eq!(found.outcome(), exact::certify(toss).unwrap().outcome());
         }
         let counts = proving.counts();
-        let by = Integration::ALL.map(|kind| counts.by(kind));
-        assert_eq!((by, counts.undecided()), ([2, 6, 2, 0, 0], 2));
+        let by = Stage::ALL.map(|kind| counts.by(kind));
+        assert_eq!((by, counts.undecided), ([2, 6, 2, 0, 0], 2));
         // Of a solver with the finest tolerance no other flight is finer.
         let finest = Stepping::adaptive(Scheme::TAYLOR, f64::EPSILON).unwrap();
         let proving = Proving::new(QuaternionSolver::new(finest, Formulation::default())).unwrap();
         proving.tilts(&tosses, &mut found).unwrap();
-        let by = Integration::ALL.map(|kind| proving.counts().by(kind));
-        assert_eq!((by, proving.counts().undecided()), ([1, 4, 0, 0, 0], 1));
+        let by = Stage::ALL.map(|kind| proving.counts().by(kind));
+        assert_eq!((by, proving.counts().undecided), ([1, 4, 0, 0, 0], 1));
         let plain: Vec<Tilt> =
             solver.land_all(&tosses, SimdLevel::widest()).into_iter().map(|landing| landing.unwrap().tilt()).collect();
         let mut in_lanes = [UNSET; 5];

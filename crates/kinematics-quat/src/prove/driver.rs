@@ -6,12 +6,12 @@
 //! A body with three different moments that passes next to a turn about the middle axis multiplies its errors; if the bound
 //! then decides nothing even at the finest tolerance, the outcome stays undecided, or nothing is stated.
 
-use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, State, Toss, Work};
+use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, Stage, State, Toss, Work};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::SimdLevel;
 
 use crate::landed::Landed;
-use crate::prove::certificate::{IntegratedCertificate, Integration};
+use crate::prove::certificate::IntegratedCertificate;
 use crate::prove::coin_step::bounds;
 use crate::prove::digits::{self, in_digits, in_double_double};
 use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
@@ -43,7 +43,7 @@ type Certified = Result<IntegratedCertificate, SolveError>;
 /// Flights that bound their error.
 trait Bounded: Motion {
     /// The plans of the flights of this kind, if a solver with these plans takes such flights.
-    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans>;
+    fn plans(taylor: &Taylor, by: Stage) -> Option<StepPlans>;
 
     /// Bounds of the attitudes of flights by these `plans`, which are those of the `tosses` with these numbers; infinite for
     /// a flight without one.
@@ -61,11 +61,11 @@ trait Bounded: Motion {
 }
 
 impl Bounded for Coins {
-    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans> {
+    fn plans(taylor: &Taylor, by: Stage) -> Option<StepPlans> {
         match by {
-            Integration::Coarse if taylor.tolerance < COARSE => Some(StepPlans::of_coarse_coins(COARSE)),
-            Integration::AsConfigured => Some(taylor.coins),
-            Integration::Finest if !taylor.is_finest() => Some(StepPlans::of_coins(f64::EPSILON)),
+            Stage::Coarse if taylor.tolerance < COARSE => Some(StepPlans::of_coarse_coins(COARSE)),
+            Stage::F64 => Some(taylor.coins),
+            Stage::Finest if !taylor.is_finest() => Some(StepPlans::of_coins(f64::EPSILON)),
             _ => None,
         }
     }
@@ -87,8 +87,8 @@ impl Bounded for Coins {
 
     fn in_digits(toss: &Toss, mut found: IntegratedCertificate) -> Certified {
         let Some(toss) = toss.coin() else { return Ok(found) };
-        let double_double = || by_digits(&toss, in_double_double(&toss)?, Integration::DoubleDouble);
-        let more = |digits| by_digits(&toss, in_digits(&toss, digits)?, Integration::MoreDigits);
+        let double_double = || by_digits(&toss, in_double_double(&toss)?, Stage::DoubleDouble);
+        let more = |digits| by_digits(&toss, in_digits(&toss, digits)?, Stage::MoreDigits);
         for stage in [None].into_iter().chain(DIGITS.map(Some)) {
             if found.outcome == Outcome::Undecided {
                 found = stage.map_or_else(double_double, more)?.after(&found);
@@ -100,10 +100,10 @@ impl Bounded for Coins {
 
 impl Bounded for Enclosed {
     /// There are no coarse flights: next to a turn about the middle axis, where flights take longest, those have no bound.
-    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans> {
+    fn plans(taylor: &Taylor, by: Stage) -> Option<StepPlans> {
         match by {
-            Integration::AsConfigured => Some(taylor.bodies),
-            Integration::Finest if !taylor.is_finest() => Some(StepPlans::of_bodies(f64::EPSILON)),
+            Stage::F64 => Some(taylor.bodies),
+            Stage::Finest if !taylor.is_finest() => Some(StepPlans::of_bodies(f64::EPSILON)),
             _ => None,
         }
     }
@@ -136,7 +136,7 @@ impl QuaternionSolver {
             let refused = || SolveError::NotProven { solver: Self::NAME.to_owned(), why: NO_BOUND };
             (found.error_bound < 2.0).then_some(found).ok_or_else(refused)
         };
-        let found = self.proven(tosses, level, &Integration::ALL[1..]);
+        let found = self.proven(tosses, level, &Stage::ALL[1..]);
         found.into_iter().map(|found| found.and_then(bounded)).collect()
     }
 
@@ -149,7 +149,7 @@ impl QuaternionSolver {
 
     /// The certificates of the flights that decide [`QuaternionSolver::prove_outcomes`].
     pub(crate) fn decide(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Certified> {
-        self.proven(tosses, level, &Integration::ALL)
+        self.proven(tosses, level, &Stage::ALL)
     }
 
     /// The landing of `toss` with the bounds of its error at the solver's own tolerance, whether or not they decide the
@@ -158,7 +158,7 @@ impl QuaternionSolver {
     /// # Errors
     /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        let stage = [Integration::AsConfigured];
+        let stage = [Stage::F64];
         self.proven(std::slice::from_ref(toss), SimdLevel::for_one_lane(), &stage).remove(0)
     }
 
@@ -173,7 +173,7 @@ impl QuaternionSolver {
 
     /// What flights at these `stages` state of `tosses`, in their order. Each stage flies what the one before it leaves
     /// undecided.
-    fn proven(&self, tosses: &[Toss], level: SimdLevel, stages: &[Integration]) -> Vec<Certified> {
+    fn proven(&self, tosses: &[Toss], level: SimdLevel, stages: &[Stage]) -> Vec<Certified> {
         let taylor = match self.require_proofs() {
             Ok(taylor) => taylor,
             Err(error) => return vec![Err(error); tosses.len()],
@@ -190,7 +190,7 @@ impl QuaternionSolver {
         taylor: &Taylor,
         tosses: &[Toss],
         level: SimdLevel,
-        stages: &[Integration],
+        stages: &[Stage],
         found: &mut [Certified],
     ) {
         let of_kind = |index: &usize| B::body(&tosses[*index].body).is_some();
@@ -208,7 +208,7 @@ impl QuaternionSolver {
             }
             open.retain(|index| found[*index].as_ref().is_ok_and(|found| found.outcome == Outcome::Undecided));
         }
-        if stages.contains(&Integration::MoreDigits) {
+        if stages.contains(&Stage::MoreDigits) {
             for index in open {
                 found[index] = found[index].clone().and_then(|found| B::in_digits(&tosses[index], found));
             }
@@ -216,7 +216,7 @@ impl QuaternionSolver {
     }
 
     /// The landing of a launch with the attitude `launched`, whose turn is off by at most `bound`.
-    fn stated<B>(&self, launched: Attitude, landed: &Landed<B>, bound: f64, integration: Integration) -> Certified {
+    fn stated<B>(&self, launched: Attitude, landed: &Landed<B>, bound: f64, stage: Stage) -> Certified {
         let cos_tilt = cos_tilt(launched, landed.turn);
         let error_bound = (2.0 * bound + OF_COS_TILT).min(2.0);
         Ok(IntegratedCertificate {
@@ -224,13 +224,13 @@ impl QuaternionSolver {
             landing: self.landing(launched, landed)?.with_cos_tilt(cos_tilt),
             error_bound,
             attitude_error_bound: (bound + of_attitude(launched)).min(2.0),
-            integration,
+            stage,
         })
     }
 }
 
 /// A landing in more digits than f64.
-fn by_digits(toss: &CoinToss, landing: digits::Landing, integration: Integration) -> Certified {
+fn by_digits(toss: &CoinToss, landing: digits::Landing, stage: Stage) -> Certified {
     let not_finite = |_| SolveError::NotFinite { time: toss.launch.flight_time() };
     let turn = Attitude::from_components(landing.turn).map_err(not_finite)?;
     let attitude = toss.launch.attitude() * turn;
@@ -243,7 +243,7 @@ fn by_digits(toss: &CoinToss, landing: digits::Landing, integration: Integration
         landing: Landing::new(state, work).with_cos_tilt(landing.cos_tilt),
         error_bound: landing.cos_bound,
         attitude_error_bound: (landing.attitude_bound + of_attitude(toss.launch.attitude())).min(2.0),
-        integration,
+        stage,
     })
 }
 

@@ -312,11 +312,10 @@ fn a_computation_stops_at_its_number_of_cells() {
     let few = enclosed(SILENT, (&space, coin), 1e-4, all.cells - 1);
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
     // What was proven is the answer, and says that it is not what was asked for.
-    let plan = crate::Plan::Enclosure { accuracy: 1e-4 };
     let found = estimate(SILENT, &space, 1e-4, all.cells - 1).unwrap();
     assert_eq!((found.interval, found.points), (Some(few.interval), few.cells));
-    assert!(found.half_width().unwrap() > 1e-4 && found.is_wider_than_asked(plan));
-    assert!(!estimate(SILENT, &space, 1e-4, MOST_CELLS).unwrap().is_wider_than_asked(plan));
+    assert!(found.half_width().unwrap() > 1e-4 && found.is_wider_than_asked());
+    assert!(!estimate(SILENT, &space, 1e-4, MOST_CELLS).unwrap().is_wider_than_asked());
     #[cfg(feature = "rayon")]
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

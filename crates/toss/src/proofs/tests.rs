@@ -59,7 +59,7 @@ fn planned_flights_prove_what_was_asked_for_at_the_coarsest_tolerance_that_does(
                 continue;
             }
         };
-        let How::Integrator(_, stepping) = &choice.how else { panic!("{choice:?}") };
+        let How::Proof(stepping) = &choice.how else { panic!("{choice:?}") };
         let Answer::Enclosed(answer) = choice.run(&scene).unwrap() else { panic!("{choice:?}") };
         let motion = ExactMotion::new(&toss);
         let time = toss.launch.time_of_flight();

@@ -111,7 +111,7 @@ fn the_margin_has_the_changes_of_all_inputs() {
     let toss = tosses().nth(6).unwrap();
     let outcome = certify(&toss).unwrap().outcome();
     let found = margin(&toss).unwrap();
-    assert_eq!((found.time, found.speed, found.gravity, found.time_range), of_flight(&toss, outcome));
+    assert_eq!((found.time, found.speed, found.gravity, found.time_range.unwrap()), of_flight(&toss, outcome));
     assert_eq!(found.tilt, of_tilt(&toss).unwrap());
     for axis in 0..3 {
         assert_eq!((found.rate[axis], found.rate_range[axis]), of_rate(&toss, axis, outcome));
@@ -383,5 +383,5 @@ fn an_undecided_toss_alone_has_a_margin_of_0() {
     let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
     let upright = toss([1.0, 2.0, 2.5], [0.0; 3], TimeOfFlight::Given(0.5), 0.0);
     let on_edge = Toss { launch: upright.launch.with_tilt(quarter).unwrap(), ..upright };
-    assert_eq!(margin(&on_edge).unwrap(), Margin::on_edge(&on_edge.launch, 0.0, 0.0));
+    assert_eq!(margin(&on_edge).unwrap(), Margin::on_edge(&on_edge.launch, 0.0, Some([0.0; 2])));
 }

@@ -39,7 +39,7 @@ fn outcomes_are_those_of_the_certificates_at_every_simd_level() {
         for level in SimdLevel::all() {
             assert_eq!(solver.prove_outcomes(&tosses, level), expected, "{}", level.name());
         }
-        let decided = solver.proven(&tosses, SimdLevel::widest(), &[Integration::Coarse]);
+        let decided = solver.proven(&tosses, SimdLevel::widest(), &[Stage::Coarse]);
         let is_open = |found: &&Certified| found.as_ref().unwrap().outcome == Outcome::Undecided;
         let open = decided.iter().filter(is_open).count();
         assert!((5..200).contains(&open), "phase {phase}: coarse flights leave {open} of 400 open");
@@ -69,7 +69,7 @@ fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
     let heads = Toss::new(Coin::DISC, Launch::new([0.5, 0.25, 9.0], TimeOfFlight::Given(1.0)).unwrap());
     // A solver that is as coarse as a coarse flight needs no other one.
     let decided = solver(COARSE).decide(&[heads], SimdLevel::widest()).remove(0).unwrap();
-    assert_eq!((decided.outcome, decided.integration), (Outcome::Heads, Integration::AsConfigured));
+    assert_eq!((decided.outcome, decided.stage), (Outcome::Heads, Stage::F64));
     // A solver that proves nothing has no outcome of a coarse flight either.
     let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
     assert_eq!(solver(1e-9).prove_outcomes(&[heads], SimdLevel::widest()), [Ok(Outcome::Heads)]);

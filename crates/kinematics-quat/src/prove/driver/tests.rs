@@ -60,7 +60,7 @@ fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic(
         }
         // One rounding of cos θ is most of the bound in more digits, and those of the launch are of the attitude's.
         for landing in [fine, finest] {
-            let stated = by_digits(&coin, landing, Integration::MoreDigits).unwrap();
+            let stated = by_digits(&coin, landing, Stage::MoreDigits).unwrap();
             assert!(
                 (1.0..1.02).contains(&(landing.cos_bound / (UNIT_ROUNDOFF * landing.cos_tilt.abs()))),
                 "{landing:?}"
@@ -183,21 +183,21 @@ fn near_edge(margin: f64) -> Toss {
 
 #[test]
 fn undecided_outcomes_are_decided_by_the_next_integration() {
-    for (margin, integration) in [
-        (1e-2, Integration::AsConfigured),
-        (1e-11, Integration::Finest),
-        (1e-14, Integration::DoubleDouble),
-        (0.0, Integration::DoubleDouble),
-        (-1e-14, Integration::DoubleDouble),
+    for (margin, stage) in [
+        (1e-2, Stage::F64),
+        (1e-11, Stage::Finest),
+        (1e-14, Stage::DoubleDouble),
+        (0.0, Stage::DoubleDouble),
+        (-1e-14, Stage::DoubleDouble),
     ] {
         let toss = near_edge(margin);
         let found = solver(1e-5).certify(&toss).unwrap();
-        assert_eq!(found.integration(), integration, "{margin}: {found:?}");
+        assert_eq!(found.stage(), stage, "{margin}: {found:?}");
         assert_eq!(found.outcome(), certify(&toss).unwrap().outcome(), "{margin}");
         assert!(found.cos_tilt().abs() > found.error_bound());
         assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{margin}");
         let first = solver(1e-5).enclose(&toss).unwrap().work().accepted_steps;
-        assert_eq!(found.work().accepted_steps > first, integration != Integration::AsConfigured);
+        assert_eq!(found.work().accepted_steps > first, stage != Stage::F64);
     }
 }
 
@@ -213,10 +213,7 @@ fn more_digits_decide_what_double_double_does_not_and_leave_ties() {
         // The coin is on its edge but for a turn of 1e-40 rad.
         let toss = toss([rate, 7.0, 0.0], 1.0);
         let found = solver.certify(&toss).unwrap();
-        assert_eq!(
-            (found.integration(), found.outcome()),
-            (Integration::MoreDigits, certify(&toss).unwrap().outcome())
-        );
+        assert_eq!((found.stage(), found.outcome()), (Stage::MoreDigits, certify(&toss).unwrap().outcome()));
         assert_ne!(found.outcome(), Outcome::Undecided);
     }
     for tie in [toss([0.0, 7.0, 0.0], 1.0), toss([0.0; 3], 1.0), toss([1.0, 2.0, 3.0], 0.0)] {

@@ -183,7 +183,7 @@ fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
         let expected = tally(singles, |toss| Ok(certify(toss)?.outcome()))?;
         for level in SimdLevel::all() {
             let found = Batch::new(tosses).on(level).count()?;
-            let found = [found.heads(), found.tails(), found.ties()];
+            let found = [found.heads, found.tails, found.undecided];
             if found != expected {
                 let level = level.name();
                 inputs.push(format!(

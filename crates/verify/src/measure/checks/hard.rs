@@ -312,7 +312,14 @@ fn wrong_margins(toss: &Toss, reference: &Reference) -> Deviation {
         let time = TimeOfFlight::Given(time + change);
         after(&|launch| launch.with_time_of_flight(time).ok())
     };
-    let mut wrong = usize::from(!is_right(time, found.time, found.time_range[0].min(time), outcome, LOOKS, later));
+    let mut wrong = usize::from(!is_right(
+        time,
+        found.time,
+        found.time_range.map_or(time, |[earlier, _]| earlier.min(time)),
+        outcome,
+        LOOKS,
+        later,
+    ));
     for axis in 0..3 {
         let faster = |change: f64| {
             let rate = toss.launch.rate() + Vector3::ith(axis, change);
