@@ -34,7 +34,7 @@ use numerics::{DoubleDouble, Elementary};
 
 pub use angles::RigidAngles;
 pub use certified::certify;
-pub(crate) use certified::cos_tilt_with_error;
+pub(crate) use certified::{cos_tilt_with_error, landed};
 pub use margin::{margin, speeds_of_heads};
 pub use special::Regime;
 
@@ -101,15 +101,20 @@ impl ExactMotion {
     }
 }
 
-/// Attitude and body rate of a body that is not a coin, `time` after launch, from the `first` stage on that has both within so much.
+/// Attitude and body rate of a body that is not a coin, `time` after launch, from the `first` stage on that has both within so
+/// much.
 ///
 /// # Errors
 /// As [`ExactMotion::state`].
-fn state(toss: &Toss, time: ExactTime, first: Stage, within: f64) -> Result<State, SolveError> {
-    let (turn, rate) = turn_and_rate(toss, time, first, within)?;
+pub(crate) fn state(toss: &Toss, time: ExactTime, first: Stage, within: f64) -> Result<State, SolveError> {
+    turn_and_rate(toss, time, first, within).map(|turned| turned_state(toss, turned))
+}
+
+/// The state of a body after a turn, with its rate (BF, rad/s).
+fn turned_state(toss: &Toss, (turn, rate): TurnedTo) -> State {
     // Its norm is 1.
     let turn = Attitude::from_components(turn.map(DoubleDouble::hi)).unwrap_or(Attitude::IDENTITY);
-    Ok(State { attitude: toss.launch.attitude() * turn, rate: Vector3::from(rate) })
+    State { attitude: toss.launch.attitude() * turn, rate: Vector3::from(rate) }
 }
 
 /// The angle (rad) that |ω| at launch makes of `time`.
@@ -128,17 +133,15 @@ fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, SolveError> {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] if the last number of digits is too few.
-fn turn_and_rate(
-    toss: &Toss,
-    time: ExactTime,
-    first: Stage,
-    within: f64,
-) -> Result<(Quaternion<DoubleDouble>, [f64; 3]), SolveError> {
+fn turn_and_rate(toss: &Toss, time: ExactTime, first: Stage, within: f64) -> Result<TurnedTo, SolveError> {
     turned_at_launch(toss, time)?;
     let found = climb(toss, Some(time), first, &TurnAndRate { within });
     let seconds = time.mantissa().times_power_of_two(time.exponent()).hi();
     found.map(|(answer, _)| answer).ok_or(SolveError::NotFinite { time: seconds })
 }
+
+/// A turn since launch, a unit quaternion, and the body rate (BF, rad/s) after it.
+type TurnedTo = (Quaternion<DoubleDouble>, [f64; 3]);
 
 /// The turn and the rate, within so much.
 struct TurnAndRate {
@@ -146,7 +149,7 @@ struct TurnAndRate {
 }
 
 impl Question for TurnAndRate {
-    type Answer = (Quaternion<DoubleDouble>, [f64; 3]);
+    type Answer = TurnedTo;
 
     fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<Self::Answer> {
         let size = norm_squared(&landed.turn).sqrt();

@@ -4,11 +4,11 @@
 //! The numbers as given are the moments or the tensor, the rates in their unit, the attitude, and the time or the
 //! speed, gravity and drop. They are exact, or balls contain them.
 
-use dynamics::{Error, Outcome, SolveError, Toss};
+use dynamics::{Error, Outcome, SolveError, State, Toss};
 use numerics::Elementary;
 
 use super::climb::{Landed, Question, climb};
-use super::{TO_F64, cos_tilt, turned_at_launch};
+use super::{TO_F64, TurnAndRate, cos_tilt, state, turned_at_launch, turned_state};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::{self, certify_coin};
 use crate::motion::COS_TILT_ERROR;
@@ -87,11 +87,10 @@ impl Question for Near0 {
 /// # Errors
 /// As [`certify`]; [`SolveError::NotFinite`] for a body of whose cos θ the last number of digits tells nothing.
 pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
-    let rounded = |cos_tilt: f64| (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()));
     if let Some(toss) = toss.coin() {
         return certified::cos_tilt(&toss).map(|cos_tilt| match cos_tilt.abs() > COS_TILT_ERROR {
             true => (cos_tilt, COS_TILT_ERROR),
-            false => rounded(cos_tilt),
+            false => with_rounding(cos_tilt),
         });
     }
     let time = toss.launch.time_of_flight();
@@ -100,11 +99,32 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
         return Ok((0.0, 0.0));
     }
     if let Some((cos_tilt, _)) = climb(toss, None, Stage::DoubleDouble, &Rounded) {
-        return Ok(rounded(cos_tilt));
+        return Ok(with_rounding(cos_tilt));
     }
     // That the digits ran out says nothing of the size of cos θ, but a ball about 0 does.
     let is_near_0 = climb(toss, None, Stage::DoubleDouble, &Near0).is_some();
     if is_near_0 { Ok((0.0, COS_TILT_ERROR)) } else { Err(SolveError::NotFinite { time: time.seconds() }) }
+}
+
+/// A cos θ that is rounded from more digits, with a bound of its error.
+fn with_rounding(cos_tilt: f64) -> (f64, f64) {
+    (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()))
+}
+
+/// The state at landing of a body that is not a coin, and what [`cos_tilt_with_error`] has of it, from one motion where that is possible.
+///
+/// # Errors
+/// As [`cos_tilt_with_error`].
+pub(crate) fn landed(toss: &Toss) -> Result<(State, (f64, f64)), SolveError> {
+    let time = toss.launch.time_of_flight().into();
+    turned_at_launch(toss, time)?;
+    if sign_at_rest(toss) != Some(0.0) {
+        let both = (TurnAndRate { within: TO_F64 }, Rounded);
+        if let Some(((turned, cos_tilt), _)) = climb(toss, None, Stage::DoubleDouble, &both) {
+            return Ok((turned_state(toss, turned), with_rounding(cos_tilt)));
+        }
+    }
+    Ok((state(toss, time, Stage::DoubleDouble, TO_F64)?, cos_tilt_with_error(toss)?))
 }
 
 impl ProvenCounts {

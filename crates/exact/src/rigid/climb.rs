@@ -11,14 +11,26 @@ use super::special::Special;
 use crate::certificate::Stage;
 use crate::given::rounded;
 
-/// Digits of the first stage after double-double, and of the last. A flight of 10^6 rad next to a spin about the middle axis,
-/// 1e-60 of the rate off it, takes the last.
+/// Digits of the first stage after double-double, and of the last. A flight of 10^6 rad of a tensor next to a spin about the middle
+/// axis, 1e-60 of the rate off it, takes the last.
 const DIGITS: [usize; 2] = [192, 12_288];
+
+/// Digits of the last stage of a special motion, which loses none with the length of a flight: what they do not decide is a tie.
+const MOST_OF_SPECIAL: usize = 1536;
 
 /// What can be asked of the landing, with an answer if the numbers have digits enough.
 pub(super) trait Question {
     type Answer;
     fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<Self::Answer>;
+}
+
+/// Both questions at once.
+impl<A: Question, B: Question> Question for (A, B) {
+    type Answer = (A::Answer, B::Answer);
+
+    fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<Self::Answer> {
+        Some((self.0.answer(landed)?, self.1.answer(landed)?))
+    }
 }
 
 /// A body that has turned since its launch.
@@ -63,8 +75,9 @@ pub(super) fn climb<Q: Question>(
     }
     let special = seen.or_else(|| Special::of(toss));
     let in_digits = |digits| -> Option<Landed<WideBall>> { Landed::new(Given::in_digits(toss, time, digits), special) };
+    let most = if special.is_some() { MOST_OF_SPECIAL } else { DIGITS[1] };
     let digits = std::iter::successors(Some(DIGITS[0]), |digits| Some(2 * digits));
-    let mut digits = digits.take_while(|digits| *digits <= DIGITS[1]);
+    let mut digits = digits.take_while(|digits| *digits <= most);
     let found = digits.find_map(|digits| question.answer(&in_digits(digits)?));
     found.map(|answer| (answer, Stage::Multiprecision))
 }

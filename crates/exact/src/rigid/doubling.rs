@@ -177,7 +177,7 @@ impl<N: Elementary> Curve<N> {
 
     /// The same curve by coordinates less the largest root, of a body that was given by its moments. No difference loses digits then, but for B near
     /// the separatrix.
-    pub(super) fn from_largest_root(self) -> Self {
+    pub(super) fn less_largest_root(self) -> Self {
         if !self.tensor.is_diagonal() {
             return self;
         }

@@ -120,12 +120,12 @@ impl<N: Elementary> Given<N> {
     }
 
     /// A rate (rad/s) in the unit of these.
-    pub(super) fn in_unit(&self, rate: N) -> N {
+    pub(super) fn in_unit(&self, rate: &N) -> N {
         rate.times_power_of_two(-self.exponent) / self.unit.clone()
     }
 
     /// A time (s) in the unit of that of flight.
-    pub(super) fn time_in_unit(&self, time: N) -> N {
+    pub(super) fn time_in_unit(&self, time: &N) -> N {
         time.times_power_of_two(self.exponent) * self.unit.clone()
     }
 
@@ -133,7 +133,7 @@ impl<N: Elementary> Given<N> {
     /// few digits.
     pub(super) fn turn(&self, special: Option<Special>) -> Option<Quaternion<N>> {
         match special {
-            None => self.curve().from_largest_root().turn(&self.time),
+            None => self.curve().less_largest_root().turn(&self.time),
             Some(special) => Some(self.special_turn(special)),
         }
     }

@@ -17,7 +17,7 @@ use crate::margin::{Margin, TURN_RANGE, margin_coin, rate_range, speed_and_gravi
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
 /// Two flips nearer to each other than 5e-13 of their distance may count as none. All inputs take some hundred
-/// milliseconds, and each search at most about half a second: a range says where it ended.
+/// milliseconds, and each search takes less than a second: a range says where it ended.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].

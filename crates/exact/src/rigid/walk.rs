@@ -25,10 +25,18 @@ const DIGITS: [usize; 3] = [256, 448, 960];
 
 /// The work of evaluating a toss in each stage, roughly in units of 2 µs, and that of an interval of tosses.
 const WORK: [u32; 2 + DIGITS.len()] = [2, 8, 700, 1000, 2000];
-const WORK_OF_INTERVAL: [u32; 2] = [30, 240];
+const WORK_OF_INTERVAL: [u32; 2] = [20, 160];
 
-/// The work that a search may take, about half a second.
-pub(super) const MOST_WORK: u32 = 250_000;
+/// The work that a search for the next flip may take, less than a second.
+pub(super) const MOST_WORK: u32 = 400_000;
+
+/// How many times as long a step is as one that was decided: after the first one that was not, and after a flip, from which steps begin
+/// anew.
+const GROWTH: f64 = 1.5;
+const GROWTH_AFTER_FLIP: f64 = 8.0;
+
+/// Part of the way to a flip that is known to be ahead by which a step goes.
+const NEARLY: f64 = 0.99;
 
 /// An input of a toss.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,9 +100,9 @@ impl<'a> Line<'a> {
         let width = moved.time.like(radius);
         match self.input {
             Input::Rate(axis) => {
-                models.rate[axis] = TaylorModel::variable(moved.rate[axis].clone(), moved.in_unit(width));
+                models.rate[axis] = TaylorModel::variable(moved.rate[axis].clone(), moved.in_unit(&width));
             }
-            Input::Time => models.time = TaylorModel::variable(moved.time.clone(), moved.time_in_unit(width)),
+            Input::Time => models.time = TaylorModel::variable(moved.time.clone(), moved.time_in_unit(&width)),
         }
         models
     }
@@ -107,9 +115,9 @@ impl<'a> Line<'a> {
             Input::Rate(axis) => {
                 let largest = self.toss.launch.rate().amax().max(change.abs());
                 moved = moved.with_exponent(mantissa_and_exponent(power_of_two_scale(largest)).1);
-                moved.rate[axis] = moved.rate[axis].clone() + moved.in_unit(number);
+                moved.rate[axis] = moved.rate[axis].clone() + moved.in_unit(&number);
             }
-            Input::Time => moved.time = moved.time.clone() + moved.time_in_unit(number),
+            Input::Time => moved.time = moved.time.clone() + moved.time_in_unit(&number),
         }
         moved
     }
@@ -196,6 +204,10 @@ pub(super) struct Walk<'a> {
     /// The stage that decided the last interval, and whether none decided the one after it.
     stage: usize,
     is_retry: bool,
+    /// A flip that is known to be ahead, though not that it is the first.
+    ahead: Option<f64>,
+    /// How many times as long a step is as the one before it that was decided.
+    growth: f64,
     work: u32,
 }
 
@@ -218,6 +230,8 @@ impl<'a> Walk<'a> {
             offset,
             stage: 0,
             is_retry: false,
+            ahead: None,
+            growth: GROWTH,
             work: 0,
         }
     }
@@ -238,25 +252,32 @@ impl<'a> Walk<'a> {
             if self.work > MOST_WORK || self.sign == 0.0 || self.step < f64::MIN_POSITIVE {
                 return End::Spent(self.reached());
             }
-            let step = self.step.min(self.limit - self.distance);
+            let shortest = RESOLUTION * (self.offset + self.distance);
+            self.ahead = self.ahead.filter(|ahead| *ahead > self.distance);
+            let to_flip = self.ahead.map_or(f64::INFINITY, |ahead| NEARLY * (ahead - self.distance));
+            let step = self.step.min(self.limit - self.distance).min(to_flip.max(shortest));
             let interval = self.next(step);
             match self.line.sign_around(interval, self.stage, self.is_retry, &mut self.work) {
                 Some((sign, stage)) if sign == self.sign => {
                     self.distance += step;
-                    (self.step, self.stage, self.is_retry) = (1.5 * step, stage, false);
+                    (self.step, self.stage, self.is_retry) = (self.growth * step, stage, false);
                     continue;
                 }
-                _ => (self.step, self.is_retry) = (0.5 * step, true),
+                _ => (self.step, self.is_retry, self.growth) = (0.5 * step, true, GROWTH),
             }
-            if step <= RESOLUTION * (self.offset + self.distance) {
+            if self.ahead.is_none() {
+                self.ahead = self.flip_within(step);
+            }
+            if step <= shortest {
                 let Some((passed, sign)) = self.decided_after(step) else {
                     return End::Spent(self.reached());
                 };
+                let flip = if sign == -self.sign { self.flip_within(passed) } else { None };
                 self.distance += passed;
                 self.step = step;
-                if sign == -self.sign {
-                    self.sign = sign;
-                    return End::Flip(self.reached());
+                if let Some(flip) = flip {
+                    (self.sign, self.work, self.ahead, self.growth) = (sign, 0, None, GROWTH_AFTER_FLIP);
+                    return End::Flip(self.origin + flip);
                 }
             }
         }
@@ -269,6 +290,24 @@ impl<'a> Walk<'a> {
         // The middle is rounded, and so are both ends. From another origin a rounding of it may be left out, which is some
         // thousandth of the resolution.
         [middle, 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step)]
+    }
+
+    /// A distance within the next `step` at which the outcome changes, if it has changed at the end of it: by halving, with tosses
+    /// alone.
+    fn flip_within(&mut self, step: f64) -> Option<f64> {
+        let [mut before, mut after] = [self.distance, self.distance + step];
+        let mut sign_at = |distance: f64| self.line.sign_at(self.origin + self.sense * distance, &mut self.work);
+        if sign_at(after) != -self.sign {
+            return None;
+        }
+        while after - before > f64::EPSILON * (self.offset + after) {
+            let middle = 0.5 * (before + after);
+            match sign_at(middle) {
+                sign if sign == self.sign => before = middle,
+                _ => after = middle,
+            }
+        }
+        Some(after)
     }
 
     /// A step or two after which the outcome is decided, and its sign. One step may end on a tie. The limit needs no
