@@ -168,6 +168,9 @@ impl<N: Elementary> Symmetric<N> {
 mod tests {
     use super::*;
 
+    /// The matrix with these eigenvalues, and the vector with these components along the axes.
+    type Frame = (fn([f64; 3]) -> Symmetric<f64>, fn([f64; 3]) -> [f64; 3]);
+
     /// The cosine and the sine of the angle by which the axes of all matrices are turned, first about z and then about x.
     const TURN: [f64; 2] = [0.6, 0.8];
 
@@ -191,8 +194,8 @@ mod tests {
     #[test]
     fn functions_have_the_eigenvalues_that_they_are_named_for() {
         let ([a, b, c], [x, y, z], rate) = ([1.0, 1.5, 2.25], [0.75, -0.5, 1.25], [0.5, -1.0, 0.25]);
-        let (vector, matrix): (fn([f64; 3]) -> [f64; 3], fn([f64; 3]) -> Symmetric<f64>) = (turned_vector, turned);
-        for (matrix, vector) in [(matrix, vector), (Symmetric::diagonal, |vector| vector)] {
+        let frames: [Frame; 2] = [(turned, turned_vector), (Symmetric::diagonal, |vector| vector)];
+        for (matrix, vector) in frames {
             let assert_near = |found: &Symmetric<f64>, eigenvalues: [f64; 3]| {
                 assert!(size(&found.minus(&matrix(eigenvalues))) < 1e-14, "{found:?} {eigenvalues:?}");
             };

@@ -304,7 +304,8 @@ impl<'a> Walk<'a> {
             let middle = 0.5 * (before + after);
             match sign_at(middle) {
                 sign if sign == self.sign => before = middle,
-                _ => after = middle,
+                sign if sign == -self.sign => after = middle,
+                _ => break,
             }
         }
         Some(after)
