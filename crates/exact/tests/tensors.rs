@@ -106,7 +106,7 @@ fn rotated(moments: [f64; 3], [w, x, y, z]: [i32; 4]) -> [f64; 6] {
     })
 }
 
-/// The same motion by elliptic functions or by the closed form of coins, and in a turned frame by doubling: moments of whole
+/// The same motion by moments or by the closed form of coins, and by a tensor in a turned frame: moments of whole
 /// numbers and a frame turned by a quaternion of whole numbers leave no rounding between them.
 #[test]
 fn a_turned_body_lands_as_the_same_body_does_along_its_axes() {

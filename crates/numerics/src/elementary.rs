@@ -20,13 +20,6 @@ pub trait Elementary: Number + Div<Output = Self> {
     #[must_use]
     fn like_big(&self, value: &Big) -> Self;
 
-    /// A number that is computed to be `value`, which this one is not but for cancellation; of a number with a
-    /// derivative, with that of this one.
-    #[must_use]
-    fn with_value(&self, value: &Big) -> Self {
-        self.like_big(value)
-    }
-
     /// The nearest f64; of a number with an error bound, the one nearest to its midpoint.
     fn to_f64(&self) -> f64;
 

@@ -283,12 +283,6 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
         Self::constant(self.terms[0].like_big(value))
     }
 
-    fn with_value(&self, value: &Big) -> Self {
-        let mut jet = self.clone();
-        jet.terms[0] = self.terms[0].with_value(value);
-        jet
-    }
-
     fn to_f64(&self) -> f64 {
         self.terms[0].to_f64()
     }
@@ -507,6 +501,5 @@ mod tests {
         assert!(wide.error() >= 4.5 && wide.slopes() == jet.slopes());
         let torn = Jet::<_, 5>::variable(value, Ball::new(f64::NAN, 0.0), 0);
         assert!(!torn.is_in_range());
-        assert_eq!(jet.with_value(&Big::ONE).slopes(), jet.slopes());
     }
 }

@@ -10,7 +10,6 @@
 //! | the trait of the numbers that also have roots, exponentials and angles | [`elementary`] |
 //! | numbers with a bound of their error, which grows with each operation | [`ball`] |
 //! | Taylor series in up to three variables, whose terms are the derivatives of a formula | [`jet`] |
-//! | elliptic integrals of the first kind and theta functions | [`elliptic`] |
 //! | functions on an interval as polynomials with error bounds | [`taylor_model`] |
 //! | powers of two as units | [`scale`] |
 //! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
@@ -22,7 +21,6 @@ pub mod ball;
 pub mod big;
 pub mod double_double;
 pub mod elementary;
-pub mod elliptic;
 pub mod jet;
 pub mod lanes;
 pub mod number;

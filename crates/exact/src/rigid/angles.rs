@@ -21,11 +21,11 @@
 
 use std::f64::consts::E;
 
-use dynamics::{Attitude, EulerAngles, SolveError, State, Toss};
+use dynamics::{Attitude, EulerAngles, SolveError, Stage, State, Toss};
 
 use numerics::scale::power_of_two_scale;
 
-use super::ExactMotion;
+use super::{TO_F64, state, turned_at_launch};
 use crate::motion::CoinMotion;
 
 /// Size of p or r below which it has no argument: some hundred roundings of an attitude.
@@ -33,6 +33,10 @@ const NO_ARGUMENT: f64 = 1e-13;
 
 /// Part of |p| and |r| that a step may take them across.
 const STEP: f64 = 0.8;
+
+/// Error of an attitude that only has to tell its arguments, and the size of p and r from which on it does, to 0.01 rad.
+const ROUGH: f64 = 1e-9;
+const CLEAR: f64 = 1e-7;
 
 /// Steps of a walk from the launch on, about a second of time. Between close passages of the vertical a step turns the
 /// body by up to a radian.
@@ -77,7 +81,7 @@ impl RigidAngles {
 /// A walk along the motion.
 #[derive(Debug, Clone)]
 struct Walk {
-    motion: ExactMotion,
+    toss: Toss,
     launch: Point,
     /// An upper bound of |ω| (rad/s).
     speed: f64,
@@ -105,12 +109,12 @@ impl Walk {
         let scale = power_of_two_scale(rate.amax());
         let speed = toss.body.rigid().largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
         let is_principal = toss.body.moments().is_some();
-        Self { motion: ExactMotion::compensated(toss), launch, speed, is_principal, last: launch, steps: 0 }
+        Self { toss: *toss, launch, speed, is_principal, last: launch, steps: 0 }
     }
 
     /// Goes on to `time` (s).
     fn to(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
-        self.motion.phase(time)?;
+        turned_at_launch(&self.toss, time.into())?;
         if time < self.last.time {
             (self.last, self.steps) = (self.launch, 0);
         }
@@ -120,17 +124,28 @@ impl Walk {
             }
             self.steps += 1;
             let next = (self.last.time + self.step()).min(time);
-            let State { attitude, rate } = self.motion.state(next)?;
+            let State { attitude, rate } = self.state(next, next == time)?;
             let (across, angles) = (rate.x.hypot(rate.y), EulerAngles::nearest(&attitude, &self.last.angles));
             self.last = Point { time: next, attitude, across, angles };
         }
         Ok(self.last.angles)
     }
 
+    /// Attitude and rate at a time. Between the times that are asked for, an attitude only has to tell its arguments.
+    fn state(&self, time: f64, is_asked_for: bool) -> Result<State, SolveError> {
+        let by = |first: Stage, within: f64| state(&self.toss, time.into(), first, within);
+        if !is_asked_for {
+            let rough = by(Stage::F64, ROUGH)?;
+            if from_vertical(&rough.attitude) > CLEAR {
+                return Ok(rough);
+            }
+        }
+        by(Stage::DoubleDouble, TO_F64)
+    }
+
     /// The length of the next step (s): infinite at rest.
     fn step(&self) -> f64 {
-        let [w, x, y, z] = self.last.attitude.components();
-        let distance = STEP * w.hypot(z).min(x.hypot(y)).max(NO_ARGUMENT);
+        let distance = STEP * from_vertical(&self.last.attitude).max(NO_ARGUMENT);
         let turned = 1.0 / self.speed;
         // The largest |ω⊥| in a step that is no longer.
         let across = if self.is_principal { (E * self.last.across).min(self.speed) } else { self.speed };
@@ -138,6 +153,12 @@ impl Walk {
         // A shorter step would not change the time.
         turned.min(moved).max(self.last.time * f64::EPSILON)
     }
+}
+
+/// The smaller one of |p| and |r|.
+fn from_vertical(attitude: &Attitude) -> f64 {
+    let [w, x, y, z] = attitude.components();
+    w.hypot(z).min(x.hypot(y))
 }
 
 /// The angles at launch. Where sin β = 0, the argument that the attitude does not tell is that with which p or r departs
@@ -162,6 +183,8 @@ fn departure(toss: &Toss) -> EulerAngles {
 #[cfg(test)]
 mod tests {
     use dynamics::{Body, Coin, CoinToss, Launch, TimeOfFlight};
+
+    use crate::rigid::ExactMotion;
 
     use super::*;
 

@@ -1,36 +1,22 @@
-//! This file proves the outcome of the toss of any rigid body: the closed form is evaluated in [`Ball`]s, which contain
+//! This file proves the outcome of the toss of any rigid body: the closed form is evaluated in [`Ball`](numerics::Ball)s, which contain
 //! the true numbers, first in f64, then in double-double and then in more and more digits, until cos θ has a sign.
 //!
 //! The numbers as given are the moments or the tensor, the rates in their unit, the attitude, and the time or the
-//! speed, gravity and drop. They are exact, or balls contain them. A body given by its moments takes elliptic functions
-//! about its principal axes, whose formula the exact sign of E tells. One given by a tensor takes doubling in the frame of
-//! the tensor, which has no cases.
+//! speed, gravity and drop. They are exact, or balls contain them.
 
-use dynamics::{Error, Outcome, SolveError, Stage, Toss};
-use numerics::{Ball, Elementary, WideBall};
+use dynamics::{Error, Outcome, SolveError, Stage, State, Toss};
+use numerics::Elementary;
 
-use super::tensor_toss::{Landed, Question, climb, climb_from_double_double};
-use super::{ExactMotion, TO_F64, cos_tilt};
+use super::climb::{Landed, Question, climb};
+use super::{TO_F64, TurnAndRate, cos_tilt, state, turned_at_launch, turned_state};
 use crate::certificate::{Certificate, ProvenCounts};
 use crate::certified::{self, certify_coin};
-use crate::given::{in_digits, in_double_double, rounded, scaled};
-use crate::motion::{COS_TILT_ERROR, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
-use crate::multiprecision::has_digits_of_f64;
-use crate::rigid::curve::Curve;
-
-/// Digits of the stages after double-double. The last are for rates that differ by more than 1e135.
-const DIGITS: [usize; 3] = [256, 448, 960];
-
-/// Phases (rad) from which on f64 is not tried.
-const LARGEST_PHASE_IN_F64: f64 = 1e12;
-
-/// Error of cos θ in double-double at phases from [`LARGEST_PHASE_IN_DOUBLE_DOUBLE`] to 2^53 rad, 90 u² of the phase.
-const ERROR_AT_LARGE_PHASES: f64 = 1e-14;
+use crate::motion::COS_TILT_ERROR;
 
 /// Proves the outcome of a toss.
 ///
-/// An outcome is undecided, without a proof, if cos θ is 0 as far as 960 digits can tell, or 12 288 for a tensor. No ratio of
-/// rates leaves it undecided, and no gap between two moments.
+/// Where the body does not move, exact arithmetic decides, and an outcome that is undecided is a tie. Else one is undecided, without a
+/// proof, if cos θ is 0 as far as 12 288 digits can tell.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
@@ -38,32 +24,11 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
     if let Some(toss) = toss.coin() {
         return certify_coin(&toss);
     }
-    if toss.body.moments().is_none() {
-        return certify_tensor(toss);
-    }
-    if let Some(outcome) = by_f64(toss) {
-        return Ok(Certificate::new(outcome, Stage::F64));
-    }
-    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
-    if let Some(outcome) = by_double_double(toss) {
-        return Ok(Certificate::new(outcome, Stage::DoubleDouble));
-    }
-    let outcome = DIGITS.iter().find_map(|digits| by_digits(toss, *digits));
-    let proven = |outcome| Certificate::new(outcome, Stage::MoreDigits);
-    Ok(outcome.map_or_else(Certificate::without_proof, proven))
-}
-
-/// Proves the outcome of a body that was given by a tensor. Where the body does not move, exact arithmetic decides, and an
-/// outcome that is undecided is a tie.
-///
-/// # Errors
-/// As [`certify`].
-fn certify_tensor(toss: &Toss) -> Result<Certificate, SolveError> {
-    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    turned_at_launch(toss, toss.launch.time_of_flight().into())?;
     if let Some(sign) = sign_at_rest(toss) {
         return Ok(Certificate::new(Outcome::of(sign, 0.0), Stage::MoreDigits));
     }
-    let found = climb(toss, &Sign);
+    let found = climb(toss, None, Stage::F64, &Sign);
     Ok(found.map_or_else(Certificate::without_proof, |(outcome, stage)| Certificate::new(outcome, stage)))
 }
 
@@ -71,7 +36,7 @@ fn certify_tensor(toss: &Toss) -> Result<Certificate, SolveError> {
 fn sign_at_rest(toss: &Toss) -> Option<f64> {
     let turns = toss.launch.rate().amax() > 0.0 && toss.launch.time_of_flight().is_positive();
     // Digits do not matter to the sign: what is 0 is 0 in any number of them.
-    (!turns).then(|| Elementary::sign(&toss.launch.attitude().vertical_in_digits(DIGITS[0]).0[2]))
+    (!turns).then(|| Elementary::sign(&toss.launch.attitude().vertical_in_digits(64).0[2]))
 }
 
 /// cos θ in the numbers of a landing.
@@ -120,36 +85,47 @@ impl Question for Near0 {
 /// of which the last number of digits does not give 58 bits of cos θ has 0.
 ///
 /// # Errors
-/// As [`certify`]; [`SolveError::NotFinite`] for a tensor of whose cos θ the last number of digits tells nothing.
+/// As [`certify`]; [`SolveError::NotFinite`] for a body of whose cos θ the last number of digits tells nothing.
 pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
-    let rounded = |cos_tilt: f64| (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()));
     // By reference: moved out, the toss would be copied twice.
     if let Some(toss) = &toss.coin() {
         return certified::cos_tilt(toss).map(|cos_tilt| match cos_tilt.abs() > COS_TILT_ERROR {
             true => (cos_tilt, COS_TILT_ERROR),
-            false => rounded(cos_tilt),
+            false => with_rounding(cos_tilt),
         });
     }
-    let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
-    if toss.body.moments().is_none() {
-        motion.phase(time)?;
-        if sign_at_rest(toss) == Some(0.0) {
-            return Ok((0.0, 0.0));
-        }
-        if let Some((cos_tilt, _)) = climb_from_double_double(toss, None, &Rounded) {
-            return Ok(rounded(cos_tilt));
-        }
-        // That the digits ran out says nothing of the size of cos θ, but a ball about 0 does.
-        let is_near_0 = climb_from_double_double(toss, None, &Near0).is_some();
-        return if is_near_0 { Ok((0.0, COS_TILT_ERROR)) } else { Err(SolveError::NotFinite { time: time.seconds() }) };
+    let time = toss.launch.time_of_flight();
+    turned_at_launch(toss, time.into())?;
+    if sign_at_rest(toss) == Some(0.0) {
+        return Ok((0.0, 0.0));
     }
-    let (cos_tilt, phase) = (motion.cos_tilt(time)?, motion.phase(time)?);
-    let error = if phase <= LARGEST_PHASE_IN_DOUBLE_DOUBLE { COS_TILT_ERROR } else { ERROR_AT_LARGE_PHASES };
-    if cos_tilt.abs() > error {
-        return Ok((cos_tilt, error));
+    if let Some((cos_tilt, _)) = climb(toss, None, Stage::DoubleDouble, &Rounded) {
+        return Ok(with_rounding(cos_tilt));
     }
-    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits).filter(has_digits_of_f64));
-    Ok(with_digits.map_or((0.0, error), |cos_tilt| rounded(cos_tilt.to_f64())))
+    // That the digits ran out says nothing of the size of cos θ, but a ball about 0 does.
+    let is_near_0 = climb(toss, None, Stage::DoubleDouble, &Near0).is_some();
+    if is_near_0 { Ok((0.0, COS_TILT_ERROR)) } else { Err(SolveError::NotFinite { time: time.seconds() }) }
+}
+
+/// A cos θ that is rounded from more digits, with a bound of its error.
+fn with_rounding(cos_tilt: f64) -> (f64, f64) {
+    (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()))
+}
+
+/// The state at landing of a body that is not a coin, and what [`cos_tilt_with_error`] has of it, from one motion where that is possible.
+///
+/// # Errors
+/// As [`cos_tilt_with_error`].
+pub(crate) fn landed(toss: &Toss) -> Result<(State, (f64, f64)), SolveError> {
+    let time = toss.launch.time_of_flight().into();
+    turned_at_launch(toss, time)?;
+    if sign_at_rest(toss) != Some(0.0) {
+        let both = (TurnAndRate { within: TO_F64 }, Rounded);
+        if let Some(((turned, cos_tilt), _)) = climb(toss, None, Stage::DoubleDouble, &both) {
+            return Ok((turned_state(toss, turned), with_rounding(cos_tilt)));
+        }
+    }
+    Ok((state(toss, time, Stage::DoubleDouble, TO_F64)?, cos_tilt_with_error(toss)?))
 }
 
 impl ProvenCounts {
@@ -166,57 +142,22 @@ impl ProvenCounts {
     }
 }
 
-/// The outcome that cos θ proves, if it has a sign.
-fn outcome<N: Elementary>(toss: &Toss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Outcome> {
-    let cos_tilt = cos_tilt_in_ball(toss, vertical, time)?;
-    match Outcome::of(cos_tilt.midpoint().to_f64(), cos_tilt.radius()) {
-        Outcome::Undecided => None,
-        decided => cos_tilt.has_sign().then_some(decided),
-    }
-}
-
-/// A ball with cos θ; `None` if the numbers have too few digits.
-fn cos_tilt_in_ball<N: Elementary>(toss: &Toss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Ball<N>> {
-    let (rate, _) = toss.launch.given_rate();
-    let curve = Curve::new(&toss.body, &scaled(&rate, time))?;
-    // A large phase is left to its check. In f64 nothing would be decided by it.
-    let turned = curve.rates().map(|rate| (rate * time.clone()).to_f64().abs());
-    if time.digits() == 53 && !turned.iter().all(|phase| *phase < LARGEST_PHASE_IN_F64) {
-        return None;
-    }
-    Some(cos_tilt(&curve.turn(time), vertical))
-}
-
-/// The outcome in f64, for phases whose rounding leaves digits.
-fn by_f64(toss: &Toss) -> Option<Outcome> {
-    let (time, vertical) = in_double_double(&toss.launch)?;
-    outcome(toss, &vertical.each_ref().map(rounded), &rounded(&time))
-}
-
-fn by_double_double(toss: &Toss) -> Option<Outcome> {
-    let (time, vertical) = in_double_double(&toss.launch)?;
-    outcome(toss, &vertical, &time)
-}
-
-/// The outcome in this number of digits, for rates of any ratio.
-fn by_digits(toss: &Toss, digits: usize) -> Option<Outcome> {
-    cos_tilt_in_digits(toss, digits).map(|cos_tilt| Outcome::of(cos_tilt.sign(), 0.0))
-}
-
-/// A ball with cos θ in this number of digits, if it has a sign.
-fn cos_tilt_in_digits(toss: &Toss, digits: usize) -> Option<WideBall> {
-    let (time, vertical) = in_digits(&toss.launch, digits);
-    let curve = Curve::new(&toss.body, &scaled(&toss.launch.given_rate().0, &time))?;
-    Some(cos_tilt(&curve.turn(&time), &vertical)).filter(WideBall::has_sign)
-}
-
 #[cfg(test)]
 mod tests {
     use dynamics::{AngleUnit, Attitude, Body, Launch, TimeOfFlight};
-    use numerics::DoubleDouble;
     use numerics::big::exactly;
+    use numerics::{Ball, DoubleDouble, WideBall};
 
     use super::*;
+    use crate::given::{in_digits, in_double_double, rounded};
+    use crate::rigid::ExactMotion;
+    use crate::rigid::given::Given;
+    use crate::rigid::special::Special;
+
+    /// cos θ in the numbers of what is given.
+    fn cos_tilt_in<N: Elementary>(toss: &Toss, given: &Given<N>) -> Option<N> {
+        Some(cos_tilt(&given.turn(Special::at_sight(toss))?, &given.vertical))
+    }
 
     /// Tosses of four bodies, from horizontal and tilted, with phases of up to some thousand rad.
     fn tosses() -> impl Iterator<Item = Toss> {
@@ -237,15 +178,13 @@ mod tests {
     fn balls_of_f64_contain_those_of_double_double_and_decide_nearly_all_outcomes() {
         let (mut decided, mut largest) = (0, 0.0_f64);
         for toss in tosses() {
-            let (time, vertical) = in_double_double(&toss.launch).unwrap();
-            let fine = cos_tilt_in_ball(&toss, &vertical, &time).unwrap();
-            let Some(rough) = cos_tilt_in_ball(&toss, &vertical.each_ref().map(rounded), &rounded(&time)) else {
-                continue;
-            };
+            let given = Given::in_double_double(&toss, None);
+            let fine = cos_tilt_in(&toss, &given).unwrap();
+            let Some(rough) = cos_tilt_in(&toss, &given.map(rounded)) else { continue };
             let off = (fine.midpoint().hi() - rough.midpoint()).abs();
             assert!(off <= rough.radius() + fine.radius(), "{toss:?}: {off:e} {rough:?}");
             largest = largest.max(off / rough.radius());
-            decided += u32::from(by_f64(&toss).is_some());
+            decided += u32::from(rough.has_sign());
         }
         assert!(decided > 1990 && largest > 1e-3, "{decided} {largest:e}");
     }
@@ -309,7 +248,6 @@ mod tests {
         }
     }
 
-    /// Some launches are off by up to 3e-16.
     #[test]
     fn cos_tilt_is_within_its_error_at_the_largest_phases() {
         for index in 1..=60 {
@@ -320,32 +258,26 @@ mod tests {
                 Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch }
             };
             let turned = ExactMotion::new(&toss(1.0)).phase(1.0).unwrap();
-            for (phase, most) in [(0.99e14, COS_TILT_ERROR), (8.5e15, ERROR_AT_LARGE_PHASES)] {
+            for phase in [0.99e14, 8.5e15] {
                 let toss = toss(phase / turned);
                 let (cos_tilt, error) = cos_tilt_with_error(&toss).unwrap();
-                let exact = cos_tilt_in_digits(&toss, 256).unwrap().to_big();
+                let exact = cos_tilt_in(&toss, &Given::<WideBall>::in_digits(&toss, None, 384)).unwrap().to_big();
                 let off = (exactly(cos_tilt) - exact).to_f64().value().abs();
-                assert!(off <= error && error == most, "{toss:?}: {off:e} {error:e}");
+                assert!(off <= error && error <= COS_TILT_ERROR, "{toss:?}: {off:e} {error:e}");
             }
         }
     }
 
-    /// From 1e12 rad on f64 is not tried: the phase of a body that always shows heads would not be checked then.
+    /// A doubling takes two to three binary digits.
     #[test]
-    fn flights_of_large_phases_are_decided_in_double_double() {
+    fn flights_of_large_phases_take_more_digits() {
         let spinning = |time: f64| Toss {
             body: Body::from_moments([1.0, 1.2, 2.0]).unwrap(),
             launch: Launch::new([0.01, 0.01, 1.9], TimeOfFlight::Given(time)).unwrap(),
         };
         let certified = |time: f64| certify(&spinning(time)).map(|found| (found.outcome(), found.stage()));
-        assert_eq!(certified(1e11), Ok((Outcome::Heads, Stage::F64)));
-        // A rate of more than 1 rad/s, so that the time alone is below 1e12.
-        for time in [0.8e12, 1e13, 1e15] {
-            let (exact_time, vertical) = in_double_double(&spinning(time).launch).unwrap();
-            let rough = vertical.each_ref().map(rounded);
-            assert!(cos_tilt_in_ball(&spinning(time), &rough, &rounded(&exact_time)).is_none(), "{time:e}");
-            assert!(cos_tilt_in_ball(&spinning(time), &vertical, &exact_time).is_some(), "{time:e}");
-            assert_eq!(certified(time), Ok((Outcome::Heads, Stage::DoubleDouble)), "{time:e}");
+        for (time, stage) in [(1e4, Stage::F64), (1e9, Stage::DoubleDouble), (1e15, Stage::MoreDigits)] {
+            assert_eq!(certified(time), Ok((Outcome::Heads, stage)), "{time:e}");
         }
         assert!(matches!(certified(1e17), Err(SolveError::PhaseTooLarge { .. })));
     }
@@ -377,7 +309,7 @@ mod tests {
     }
 
     /// Of components that differ by any factor, the outcome is that of the motion without the smallest where that one does
-    /// not grow. Next to the middle axis it grows by 1e250 in 200 s; then the motion is that of 1536 digits without bounds.
+    /// not grow. Next to the middle axis it grows by 1e250 in 200 s.
     #[test]
     fn no_ratio_of_rates_leaves_an_outcome_undecided() {
         for exponent in [-20, -140, -200, -300, -320] {
@@ -419,18 +351,6 @@ mod tests {
             let (found, cos_tilt) = (certify(&toss).unwrap(), ExactMotion::new(&toss).cos_tilt(time).unwrap());
             assert!(found.is_proven() && found.outcome() == Outcome::of(cos_tilt, 1e-15), "{rate:?} {cos_tilt}");
         }
-    }
-
-    /// A plate that rests on its edge: no ball proves that cos θ is 0.
-    #[test]
-    fn an_undecided_outcome_of_a_body_is_not_called_proven() {
-        let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
-        let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.7)).unwrap().with_tilt(quarter).unwrap();
-        let toss = Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
-        let certificate = certify(&toss).unwrap();
-        assert_eq!((certificate.outcome(), certificate.is_proven()), (Outcome::Undecided, false));
-        let toss = Toss { launch: launch.with_tilt(1.0).unwrap(), ..toss };
-        assert!(certify(&toss).unwrap().is_proven());
     }
 
     /// After π/2 rad to the nearest f64 cos θ is 6.1e-17. At rest, from a quaternion near (1, 1, 0, 0) it is z²/(2 + z²), which

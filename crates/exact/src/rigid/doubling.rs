@@ -10,14 +10,14 @@
 //! ```text
 //! B = 2T J - G²
 //! E = ((Iⱼ - Iᵢ) Bₖ + (Iₖ - Iᵢ) Bⱼ)/(3 det J)       eᵢ - eⱼ = Bₖ (Iⱼ - Iᵢ)/det J, tr E = 0
-//! C = cof B (Iᵢ - Iⱼ)(Iᵢ - Iₖ)/det² J              (eᵢ - eⱼ)(eᵢ - eₖ)
+//! K = E² - cof B (Iᵢ - Iⱼ)(Iᵢ - Iₖ)/det² J         eᵢ² - (eᵢ - eⱼ)(eᵢ - eₖ)
 //! a = -tr E²/2,  b = -det E                        y² = x³ + a x + b has the roots eᵢ
 //! x₀ = -ω·J (Iᵢ - Iⱼ)(Iᵢ - Iₖ) ω/(3 det J)
 //! xₐ = -tr(J cof B)/(3 G² det J),  κ = det B/(G³ det J)
 //! ```
 //!
 //! the squares of the components of the rate are, but for constants, ℘ - eᵢ, where ℘ is Weierstrass' function of that
-//! curve. With τ half the time of flight, t = 1/℘ and q = -℘'/(2 ℘²) at τ/2, s = 2q, S = (1 - tE)² - C t² and
+//! curve. With τ half the time of flight, t = 1/℘ and q = -℘'/(2 ℘²) at τ/2, s = 2q, S = 1 - 2tE + K t² and
 //! D = 1 - 2a t² - 8b t³ + a² t⁴, the rate ω_c at τ and the turn Q from launch to landing are
 //!
 //! ```text
@@ -34,12 +34,25 @@
 //! n → n² (1 - 3xₐ t - a t² - (a xₐ + 2b) t³ + 2iκ t q)
 //! ```
 //!
+//! # Near the separatrix
+//! Two roots are nearly equal there, ℘ comes near both, and each half-period would take digits of its difference from them. Of a body that is
+//! given by its moments the differences of the roots are known to all digits, and the curve is taken in X = ℘ - e, with the largest root e: then x₀, xₐ and E
+//! are those less e, t = 1/X, q = -X'/(2X²), K has the eigenvalues eᵢ (eⱼ + eₖ) - eⱼ eₖ of these, and with A = -tr E and B, the product of the other two roots,
+//!
+//! ```text
+//! D = (1 - B t²)²,   t → 4t (1 + A t + B t²)/D
+//! q → 2q (1 + 2A t + 6B t² + 2AB t³ + B² t⁴)/(1 - B t²)³
+//! n → n² (1 - 3xₐ t - (2A xₐ + B) t² - B xₐ t³ + 2iκ t q)
+//! ```
+//!
+//! As the other roots and xₐ are not above 0, nothing cancels but where 2τ is near a half-period.
+//!
 //! The derivation is in `docs/proofs/motion.md`. It takes that J has an inverse and that m is not 0.
 
 use numerics::Elementary;
 use numerics::scale::mantissa_and_exponent;
 
-use super::quaternion::{Quaternion, conjugate, norm_squared, turned};
+use super::quaternion::Quaternion;
 use super::tensor::{Symmetric, cross, dot};
 
 /// Binary digits by which each term of a series is smaller than the one before it: so many, and so many times the root of
@@ -57,16 +70,28 @@ pub(super) struct Curve<N> {
     squared: N,
     size: N,
     twice_energy: N,
-    /// B, E and C.
+    /// 1/det J.
+    by_determinant: N,
+    /// B, E - e and K.
     excess: Symmetric<N>,
     roots: Symmetric<N>,
     products: Symmetric<N>,
     a: N,
     b: N,
-    /// x₀, xₐ and κ.
+    /// The root e, if it is not 0.
+    root: Option<Root<N>>,
+    /// x₀ - e, xₐ - e and κ.
     at_launch: N,
     pole: N,
     kappa: N,
+}
+
+/// The largest root e, and A and B of the cubic X³ + A X² + B X of the others less e.
+#[derive(Debug, Clone)]
+struct Root<N> {
+    value: N,
+    linear: N,
+    square: N,
 }
 
 /// t and q.
@@ -75,13 +100,12 @@ struct Point<N> {
     q: N,
 }
 
-/// a t², its square, b t³, xₐ t and D.
+/// What a doubling takes of t: D, the factor of 4t over D, that of 2q as a fraction, and the real factor of n².
 struct Terms<N> {
-    a: N,
-    a2: N,
-    b: N,
-    pole: N,
     below: N,
+    cubic: N,
+    slope: [N; 2],
+    real: N,
 }
 
 fn times<N: Elementary>(a: &N, b: &N) -> N {
@@ -123,7 +147,7 @@ impl<N: Elementary> Curve<N> {
         let (excess, gaps) = (tensor.excess(&rate), tensor.gaps());
         let cofactors_of_excess = excess.cofactors();
         let roots = tensor.differences(&excess).scaled(&third);
-        let products = cofactors_of_excess.times(&gaps).scaled(&square(&by_determinant));
+        let products = roots.times(&roots).minus(&cofactors_of_excess.times(&gaps).scaled(&square(&by_determinant)));
         let cofactors_of_roots = roots.cofactors();
         let a = cofactors_of_roots.trace();
         let b = -roots.determinant(&cofactors_of_roots);
@@ -138,15 +162,42 @@ impl<N: Elementary> Curve<N> {
             squared,
             size,
             twice_energy,
+            by_determinant,
             excess,
             roots,
             products,
             a,
             b,
+            root: None,
             at_launch,
             pole,
             kappa,
         }
+    }
+
+    /// The same curve by coordinates less the largest root, of a body that was given by its moments. No difference loses digits then, but for B near
+    /// the separatrix.
+    pub(super) fn less_largest_root(self) -> Self {
+        if !self.tensor.is_diagonal() {
+            return self;
+        }
+        let [moments, roots, excess] = [&self.tensor, &self.roots, &self.excess].map(Symmetric::on_diagonal);
+        let above = |a: usize, b: usize| if roots[b].to_f64() > roots[a].to_f64() { b } else { a };
+        let largest = above(above(0, 1), 2);
+        let less = |i: usize| match i == largest {
+            true => moments[i].like(0.0),
+            false => times(&excess[3 - i - largest], &(moments[largest].clone() - moments[i].clone())),
+        };
+        let others = Symmetric::diagonal([0, 1, 2].map(|i| less(i) * self.by_determinant.clone()));
+        let square_term = others.cofactors().on_diagonal()[largest].clone();
+        let sign = |i: usize| if i == largest { -square_term.clone() } else { square_term.clone() };
+        let products = Symmetric::diagonal([0, 1, 2].map(sign));
+        let along =
+            |of: &Symmetric<N>| times(&of.on_diagonal()[largest], &moments[largest]) * self.by_determinant.clone();
+        let at_launch = -(along(&self.tensor.gaps()) * square(&self.rate[largest]));
+        let pole = -(along(&self.excess.cofactors()) / self.squared.clone());
+        let root = Root { value: roots[largest].clone(), linear: -others.trace(), square: square_term };
+        Self { roots: others, products, root: Some(root), at_launch, pole, ..self }
     }
 
     /// The turn after `time`, of any norm; `None` if the numbers have too few digits for it.
@@ -169,7 +220,7 @@ impl<N: Elementary> Curve<N> {
         let (s, sech2) = (tanh.clone() / lambda, square(&sech));
         let size = square(&tanh) / one.like(3.0) + sech2.clone() - times(&self.at_launch, &square(&s));
         // The function of J that is 1 for the middle moment and 0 for the others.
-        let middle = Symmetric::multiple(&e).minus(&self.roots).scaled(&(one / multiple(3.0, &e)));
+        let middle = self.roots.less(&e).scaled(&-(one / multiple(3.0, &e)));
         let combined =
             |weight: &N| std::array::from_fn(|i| times(&self.rate[i], weight) + times(&self.acceleration[i], &s));
         let all: [N; 3] = combined(&s.like(1.0));
@@ -183,21 +234,15 @@ impl<N: Elementary> Curve<N> {
         [times(&self.squared, &cos) * size, -(x + u), -(y + v), -(z + w)]
     }
 
-    /// The body rate (BF) after a turn: J⁻¹ of the angular momentum, which is fixed in space.
-    pub(super) fn rate_after(&self, turn: &Quaternion<N>) -> [N; 3] {
-        let (cofactors, momentum) = (self.tensor.cofactors(), self.tensor.apply(&self.rate));
-        let below = self.tensor.determinant(&cofactors) * norm_squared(turn);
-        cofactors.apply(&turned(&conjugate(turn), &momentum)).map(|part| part / below.clone())
-    }
-
     /// t and q at a quarter of the `time`, and n at half of it.
     fn half_way(&self, time: &N) -> Option<(Point<N>, [N; 2])> {
         let (digits, tau) = (f64::from(time.digits()), time.halved());
         let fall = (FALL.0 + digits.sqrt() * FALL.1).round();
         // Both series have terms below those of 1/(1 - r h)² with the step h, if r to a power is above each of these times
         // a power of two.
-        let second = multiple(3.0, &square(&self.pole)) + self.a.clone();
-        let powers = [(&self.a, 4, -3), (&self.b, 6, -4), (&self.pole, 2, 0), (&self.kappa, 3, 0), (&second, 4, -1)];
+        let pole = self.with_root(&self.pole);
+        let second = multiple(3.0, &square(&pole)) + self.a.clone();
+        let powers = [(&self.a, 4, -3), (&self.b, 6, -4), (&pole, 2, 0), (&self.kappa, 3, 0), (&second, 4, -1)];
         let exponent =
             |(number, power, scale): (&N, i32, i32)| f64::from(exponent_above(number) + scale) / f64::from(power);
         let growth = powers.into_iter().map(exponent).fold(f64::NEG_INFINITY, f64::max);
@@ -213,7 +258,7 @@ impl<N: Elementary> Curve<N> {
             let terms = self.terms(&point.t);
             n = self.doubled_phase(&point, &terms, &n);
             if left > 0 {
-                point = self.doubled(&point, &terms);
+                point = Self::doubled(&point, terms);
             }
         }
         Some((point, n))
@@ -229,6 +274,7 @@ impl<N: Elementary> Curve<N> {
         let h2 = square(h);
         let ([u, v], power) = self.laurent(&h2, terms);
         let u = u + multiple(4.0, &left(power));
+        let u = self.root.as_ref().map_or(u.clone(), |root| u - times(&root.value, &h2));
         let v = v + multiple(8.0 * count(power), &left(power));
         let t = h2.clone() / u.clone();
         let q = h.clone() * v / square(&u);
@@ -263,7 +309,7 @@ impl<N: Elementary> Curve<N> {
     fn phase(&self, h: &N, h2: &N, terms: usize) -> (N, usize) {
         let number = |value: usize| h.like(count(value));
         let mut f = Vec::with_capacity(terms + 1);
-        f.extend([times(&self.pole, h2), -twice(&times(&self.kappa, &times(h2, h)))]);
+        f.extend([times(&self.with_root(&self.pole), h2), -twice(&times(&self.kappa, &times(h2, h)))]);
         let of_curve = multiple(2.0, &times(&self.a, &square(h2)));
         for j in 0..terms.saturating_sub(2) {
             let product = |l: usize| {
@@ -283,42 +329,45 @@ impl<N: Elementary> Curve<N> {
         (angle, f.len() + 2)
     }
 
-    /// The terms a t², b t³ and xₐ t, and D.
+    /// A coordinate of the curve from one less e.
+    fn with_root(&self, less: &N) -> N {
+        self.root.as_ref().map_or_else(|| less.clone(), |root| less.clone() + root.value.clone())
+    }
+
     fn terms(&self, t: &N) -> Terms<N> {
-        let t2 = square(t);
-        let [a, b, pole] = [times(&self.a, &t2), times(&self.b, t) * t2, times(&self.pole, t)];
+        let four = |number: &N| number.times_power_of_two(2);
+        let (one, t2, pole) = (t.like(1.0), square(t), times(&self.pole, t));
+        let real = one.clone() - (pole.clone() + twice(&pole));
+        if let Some(Root { linear, square: squared, .. }) = &self.root {
+            let [a, b] = [times(linear, t), times(squared, &t2)];
+            let (product, root) = (times(&a, &b), one.clone() - b.clone());
+            let below = square(&root);
+            let slope = one.clone() + twice(&(a.clone() + product)) + multiple(6.0, &b) + square(&b);
+            let real = real - times(&pole, &(twice(&a) + b.clone())) - b.clone();
+            return Terms { slope: [slope, times(&below, &root)], below, cubic: one + a + b, real };
+        }
+        let [a, b] = [times(&self.a, &t2), times(&self.b, t) * t2];
         let a2 = square(&a);
-        let below = t.like(1.0) - twice(&(a.clone() + b.times_power_of_two(2))) + a2.clone();
-        Terms { a, a2, b, pole, below }
+        let below = one.clone() - twice(&(a.clone() + four(&b))) + a2.clone();
+        let five = one.like(5.0) * (a.clone() + four(&b) - a2.clone());
+        let last = times(&a, &(a2 + four(&b))) + square(&b).times_power_of_two(3);
+        let real = real - twice(&b) - times(&a, &(one.clone() + pole));
+        Terms { slope: [one.clone() + five - last, square(&below)], below, cubic: one + a + b, real }
     }
 
     /// The point at twice the time.
-    fn doubled(&self, Point { t, q }: &Point<N>, Terms { a, a2, b, below, .. }: &Terms<N>) -> Point<N> {
-        let four = |number: &N| number.times_power_of_two(2);
-        let one = t.like(1.0);
-        let cubic = one.clone() + a.clone() + b.clone();
-        let five = one.like(5.0) * (a.clone() + four(b) - a2.clone());
-        let last = times(a, &(a2.clone() + four(b))) + square(b).times_power_of_two(3);
-        let above = one + five - last;
-        Point { t: four(t) * cubic / below.clone(), q: twice(q) * above / square(below) }
+    fn doubled(Point { t, q }: &Point<N>, Terms { below, cubic, slope: [slope, of], .. }: Terms<N>) -> Point<N> {
+        Point { t: t.times_power_of_two(2) * cubic / below, q: twice(q) * slope / of }
     }
 
     /// n at twice the time, times some power of two.
-    fn doubled_phase(
-        &self,
-        Point { t, q }: &Point<N>,
-        Terms { a, b, pole, .. }: &Terms<N>,
-        [re, im]: &[N; 2],
-    ) -> [N; 2] {
-        let one = t.like(1.0);
-        let three = pole.clone() + twice(pole);
-        let real = one.clone() - three - twice(b) - times(a, &(one + pole.clone()));
+    fn doubled_phase(&self, Point { t, q }: &Point<N>, Terms { real, .. }: &Terms<N>, [re, im]: &[N; 2]) -> [N; 2] {
         let imaginary = twice(&self.kappa) * times(t, q);
         let (square_re, square_im) =
             (times(&(re.clone() + im.clone()), &(re.clone() - im.clone())), twice(&times(re, im)));
         let doubled = [
-            times(&square_re, &real) - times(&square_im, &imaginary),
-            times(&square_re, &imaginary) + times(&square_im, &real),
+            times(&square_re, real) - times(&square_im, &imaginary),
+            times(&square_re, &imaginary) + times(&square_im, real),
         ];
         let (_, exponent) = mantissa_and_exponent(doubled[0].to_f64().abs().max(doubled[1].to_f64().abs()));
         doubled.map(|part| part.times_power_of_two(-exponent))
@@ -326,8 +375,7 @@ impl<N: Elementary> Curve<N> {
 
     /// The turn, from the point at a quarter of the time of flight and n at half of it.
     fn assembled(&self, Point { t, q }: &Point<N>, [re, im]: &[N; 2]) -> Quaternion<N> {
-        let part = Symmetric::multiple(&t.like(1.0)).minus(&self.roots.scaled(t));
-        let root = part.times(&part).minus(&self.products.scaled(&square(t)));
+        let root = self.products.scaled(&square(t)).minus(&self.roots.scaled(&twice(t))).less(&-t.like(1.0));
         let s = twice(q);
         let cofactors = root.cofactors();
         let below = self.terms(t).below;

@@ -6,17 +6,17 @@
 //! form there; cos θ of a given time is continuous, and a shortest step between two tosses that are decided passes it as it
 //! passes a touch. A search that ends before its limit, for want of work or digits, says how far it went.
 
-use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
+use dynamics::{Outcome, SolveError, Stage, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
 use super::walk::{End, Input, Line, RESOLUTION, Walk};
-use super::{ExactMotion, certify, cos_tilt};
+use super::{certify, cos_tilt, turn_and_rate, turned_at_launch};
 use crate::margin::{Margin, TURN_RANGE, margin_coin, rate_range, speed_and_gravity, thrown_speeds_of_heads};
 
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
 /// Two flips nearer to each other than 5e-13 of their distance may count as none. All inputs take some hundred
-/// milliseconds, and each search at most about half a second: a range says where it ended.
+/// milliseconds, and each search takes less than a second: a range says where it ended.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -94,7 +94,9 @@ fn nearest_rate((up, up_range): Found, (down, down_range): Found, range: f64) ->
 
 /// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
 fn of_tilt(toss: &Toss) -> Result<Option<f64>, SolveError> {
-    let Some(turn) = ExactMotion::new(toss).turn(toss.launch.time_of_flight().into())? else { return Ok(None) };
+    // Heights near 0 lose digits of the turn.
+    const WITHIN: f64 = 1.355_252_715_606_880_5e-20; // 2^-66
+    let (turn, _) = turn_and_rate(toss, toss.launch.time_of_flight().into(), Stage::DoubleDouble, WITHIN)?;
     let attitude = toss.launch.attitude();
     let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
         .map(|vertical| cos_tilt(&turn, &vertical));
@@ -116,7 +118,7 @@ pub fn speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f64; 2]>
     if let Some(toss) = toss.coin() {
         return thrown_speeds_of_heads(&toss, slowest);
     }
-    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    turned_at_launch(toss, toss.launch.time_of_flight().into())?;
     let to = toss.launch.flight_time();
     let from = TimeOfFlight::BallisticTo { speed: slowest, gravity, drop }.seconds();
     let speed_of = |time: f64| (0.5 * gravity * time - drop / time).clamp(slowest.min(speed), speed);

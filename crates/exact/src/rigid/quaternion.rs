@@ -41,25 +41,3 @@ pub(super) fn turned_normal<N: Elementary>([w, x, y, z]: &Quaternion<N>) -> [N; 
     let twice = |half: N| half.clone() + half;
     [twice(term(x, z) + term(w, y)), twice(term(y, z) - term(w, x)), term(w, w) + term(z, z) - term(x, x) - term(y, y)]
 }
-
-/// A quaternion of some norm whose turn takes a vector's components in the old axes to those in the new ones, which are
-/// the rows of `axes`. For axes along the old ones it is made of whole numbers.
-pub(super) fn of_axes<N: Elementary>(axes: &[[N; 3]; 3]) -> Quaternion<N> {
-    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = axes.clone();
-    let one = xx.like(1.0);
-    let squares = [
-        one.clone() + xx.clone() + yy.clone() + zz.clone(),
-        one.clone() + xx.clone() - yy.clone() - zz.clone(),
-        one.clone() - xx.clone() + yy.clone() - zz.clone(),
-        one - xx - yy + zz,
-    ];
-    let largest =
-        (0..4).fold(0, |most, index| if squares[index].to_f64() > squares[most].to_f64() { index } else { most });
-    let [w, x, y, z] = squares;
-    match largest {
-        0 => [w, zy - yz, xz - zx, yx - xy],
-        1 => [zy - yz, x, xy + yx, xz + zx],
-        2 => [xz - zx, xy + yx, y, yz + zy],
-        _ => [yx - xy, xz + zx, yz + zy, z],
-    }
-}

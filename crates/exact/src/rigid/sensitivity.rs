@@ -1,46 +1,24 @@
 //! The derivatives of the landing of any rigid body with respect to its launch, by evaluating the motion in numbers
 //! with a derivative. Next to the separatrix they are huge: one ulp of a rate moves a flight off it by radians.
 //!
-//! Values and derivatives are balls. The radius of a derivative tells how many digits it has lost, as next to a spin about
-//! a principal axis, where period and phase have derivatives that cancel; more digits are taken until enough are left.
-//! The radius leaves out what the ends of series change of a derivative, so that it proves nothing.
-//!
-//! A spin about a principal axis has a form of its own, and so have its derivatives. With the axes a, b, c in cyclic order
-//! and L = I_a ω_a, the change of the rate is δω_a = const and
-//!
-//! ```text
-//! δω_b' = (I_c - I_a)/I_b ω_a δω_c,   δω_c' = (I_a - I_b)/I_c ω_a δω_b
-//! ```
-//!
-//! and the turn ε (BF) follows from the change of the angular momentum, which is fixed in space:
-//! ε × L = R⁻¹ δL(0) - δL(T), ε_a = T δω_a.
+//! Values and derivatives are balls. The radius of a derivative tells how many digits it has lost, as next to the
+//! separatrix; more digits are taken until enough are left.
 
 use dynamics::{Launch, SolveError, Toss};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
-use numerics::big::exactly;
-use numerics::{DoubleDouble, Elementary, Jet};
+use numerics::{Elementary, Jet};
 
-use super::curve::Curve;
+use super::given::Given;
 use super::quaternion::{Quaternion, conjugate, norm_squared, product};
-use super::regime::{Regime, along};
-use super::tensor::Symmetric;
-use super::tensor_toss::Given;
-use super::{ExactMotion, MANY_DIGITS, cos_tilt, doubling};
-use crate::given::{components_are_close, in_digits, right_to_25_u2, scaled, vertical_in_double_double};
+use super::special::Special;
+use super::{ExactMotion, cos_tilt};
 use crate::sensitivity::Sensitivity;
-
-/// How far, in units of the largest component, a launch is moved off the separatrix. Its
-/// derivatives across are those of the motions around it, which differ by this times the second derivatives.
-const ASIDE: f64 = 7.888_609_052_210_118e-31; // 2^-100
 
 /// Relative error of a derivative.
 const RELATIVE: f64 = 1.421_085_471_520_200_4e-14; // 2^-46
 
 /// Digits of the stages after double-double.
-const DIGITS: [usize; 2] = [320, 960];
-
-/// Those for a body given by a tensor, whose digits the separatrix takes.
-const DIGITS_OF_TENSORS: [usize; 3] = [320, 960, 3840];
+const DIGITS: [usize; 3] = [320, 960, 3840];
 
 /// Parts of the largest component of the rate below which balls of so many digits lose the derivatives, and the phase (rad)
 /// up to which the derivatives are those without such a component: it grows by less than e^300.
@@ -58,8 +36,7 @@ type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
     /// The derivatives at the landing of `toss`. Of a body that is not a coin, each column of the attitude, and each derivative of cos θ by a
-    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. On the separatrix itself
-    /// both hold for turns of up to 30 rad.
+    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, and of turns above
@@ -76,16 +53,11 @@ impl Sensitivity {
             }
             return Self::new(&without);
         }
-        let (_, unit) = motion.time_and_unit(at.into())?;
         let up = landing.attitude.lab_to_body(&Vector3::z());
-        let (changes, unit) = match spun(toss, &motion, unit, &up)? {
-            Some(spun) => (Some(spun), unit),
-            None if toss.body.moments().is_none() => changes_of_tensor(toss),
-            None => (changes(toss, &motion), unit),
-        };
+        let hardly_turns = motion.phase(at)? < SHORT;
+        let found = if hardly_turns { Some((changes_of_rest(toss, &up), 1.0)) } else { changes(toss) };
+        let (changes, unit) = found.ok_or(SolveError::NotFinite { time: at.seconds() })?;
         let (mut attitude, mut slopes) = (Matrix3x4::zeros(), Vector4::zeros());
-        // In many digits there is a regime, so that none is missing.
-        let changes = changes.ok_or(SolveError::NotFinite { time: at.seconds() })?;
         for (input, (turn, slope)) in changes.into_iter().enumerate() {
             attitude.set_column(input, &(Vector3::from(turn) / unit));
             slopes[input] = slope / unit;
@@ -113,76 +85,37 @@ fn without_vanishing(toss: &Toss) -> Option<Toss> {
     Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
 }
 
-/// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
-fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
-    let (rate, _) = toss.launch.given_rate();
-    // Without an error bound, beside a motion that has a form of its own.
-    let without_bound = |aside: f64| {
-        let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
-        // Not in balls, of which the elliptic functions next to the separatrix leave no digit.
-        let like = exactly(0.0).with_precision(MANY_DIGITS).value();
-        let time = like.like_big(&time.to_big());
-        let vertical = toss.launch.attitude().exact_vertical().map(|part| time.like_big(&part.to_big()));
-        let mut moved = scaled(&rate, &time);
-        for (part, direction) in moved.iter_mut().zip([1.0, -0.7, 0.6]) {
-            *part = part.clone() + time.like(direction * aside);
-        }
-        Some(in_f64(&changes_in(toss, &moved, &time, &vertical)?))
-    };
-    if motion.regime() == Regime::Separatrix {
-        return without_bound(ASIDE);
-    }
-    let in_double_double = || {
-        let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
-        let (time, vertical) = (right_to_25_u2(time), vertical_in_double_double(&toss.launch));
-        let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
-        are_right(&found, 0.0).then(|| in_f64(&found))
-    };
-    let in_balls = |digits: usize| {
-        let (time, vertical) = in_digits(&toss.launch, digits);
-        let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
-        let none_above = if digits == DIGITS[1] { NO_SLOPE } else { 0.0 };
-        are_right(&found, none_above).then(|| in_f64(&found))
-    };
-    let close = if components_are_close(&rate) { in_double_double() } else { None };
-    close.or_else(|| DIGITS.into_iter().find_map(in_balls))
-}
-
-/// The changes of a body that was given by a tensor, and the unit (rad/s) of the rates by which it is changed.
-fn changes_of_tensor(toss: &Toss) -> (Option<[Change<f64>; 3]>, f64) {
+/// The changes of the landing with each component of the rate, and the unit (rad/s) of these: by as many digits as it takes.
+fn changes(toss: &Toss) -> Option<([Change<f64>; 3], f64)> {
+    // A spin and the separatrix are left when the rate changes.
+    let is_kept = |special: &Special| matches!(special, Special::Symmetric(_));
+    let symmetric = Special::at_sight(toss).filter(is_kept);
     let fine = Given::in_double_double(toss, None);
-    let unit = 2f64.powi(fine.exponent);
-    if let Some(found) = changes_by_doubling(&fine).filter(|found| are_right(found, 0.0)) {
-        return (Some(in_f64(&found)), unit);
+    if let Some(found) = changes_in(&fine, symmetric).filter(|found| are_right(found, 0.0)) {
+        return Some((in_f64(&found), 2f64.powi(fine.exponent)));
     }
-    let found = DIGITS_OF_TENSORS.into_iter().find_map(|digits| {
+    // Next to a spin a derivative may be as small as what is next to it; of a spin it is 0 then.
+    let spins = Special::of(toss) == Some(Special::Spin);
+    DIGITS.into_iter().find_map(|digits| {
         let given = Given::in_digits(toss, None, digits);
-        let unit = (given.unit.clone().times_power_of_two(given.exponent)).to_f64();
-        let none_above = if digits == DIGITS_OF_TENSORS[2] { NO_SLOPE } else { 0.0 };
-        let found = changes_by_doubling(&given).filter(|found| are_right(found, none_above))?;
-        Some((in_f64(&found), unit))
-    });
-    found.map_or((None, unit), |(changes, unit)| (Some(changes), unit))
+        let none_above = if spins || digits == DIGITS[2] { NO_SLOPE } else { 0.0 };
+        let found = changes_in(&given, symmetric).filter(|found| are_right(found, none_above))?;
+        Some((in_f64(&found), given.unit.times_power_of_two(given.exponent).to_f64()))
+    })
 }
 
-/// The changes by doubling.
-fn changes_by_doubling<N: Elementary>(given: &Given<N>) -> Option<[Change<N>; 3]> {
-    let inputs = [0, 1, 2].map(|input| Jet::<_, 4>::variable(given.rate[input].clone(), given.time.like(1.0), input));
-    let tensor = Symmetric(given.tensor.0.clone().map(Jet::constant));
-    let turn = doubling::Curve::new(tensor, inputs).turn(&Jet::constant(given.time.clone()))?;
-    Some(changes_of_turn(&turn, &given.vertical))
-}
-
-/// The changes in one kind of number. `None` if it has too few digits.
-fn changes_in<N: Elementary>(toss: &Toss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
-    let inputs = [0, 1, 2].map(|input| Jet::<_, 4>::variable(rate[input].clone(), time.like(1.0), input));
-    let turn = Curve::new(&toss.body, &inputs)?.turn(&Jet::constant(time.clone()));
-    Some(changes_of_turn(&turn, vertical))
+/// The changes in one kind of number, of a motion that may be a `special` one; `None` if it has too few digits.
+fn changes_in<N: Elementary>(given: &Given<N>, special: Option<Special>) -> Option<[Change<N>; 3]> {
+    let mut inputs = given.map(|part| Jet::<N, 4>::constant(part.clone()));
+    for (index, part) in given.rate.iter().enumerate() {
+        inputs.rate[index] = Jet::variable(part.clone(), part.like(1.0), index);
+    }
+    Some(changes_of_turn(&inputs.turn(special)?, &inputs.vertical))
 }
 
 /// The changes that a turn with its derivatives by the rates makes.
-fn changes_of_turn<N: Elementary>(turn: &Quaternion<Jet<N, 4>>, vertical: &[N; 3]) -> [Change<N>; 3] {
-    let slopes = cos_tilt(turn, &vertical.clone().map(Jet::constant));
+fn changes_of_turn<N: Elementary>(turn: &Quaternion<Jet<N, 4>>, vertical: &[Jet<N, 4>; 3]) -> [Change<N>; 3] {
+    let slopes = cos_tilt(turn, vertical);
     let values = turn.each_ref().map(|part| part.value().clone());
     let size = norm_squared(&values);
     let change = |input: usize| {
@@ -210,64 +143,13 @@ fn in_f64<N: Elementary>(changes: &[Change<N>; 3]) -> [Change<f64>; 3] {
     changes.each_ref().map(|(turn, slope)| (turn.each_ref().map(N::to_f64), rounded(slope)))
 }
 
-/// The changes of a body that hardly turns, or one that spins about a principal axis, in the unit of the curve (rad/s);
-/// `None` for another motion. `up` is the vertical (BF) at landing.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
-fn spun(
-    toss: &Toss,
-    motion: &ExactMotion,
-    unit: f64,
-    up: &Vector3<f64>,
-) -> Result<Option<[Change<f64>; 3]>, SolveError> {
-    let (given, _) = toss.launch.given_rate();
-    let like = DoubleDouble::ZERO;
-    let principal = toss.body.rigid().scaled_principal(&like);
-    let with_slope = |turn: [f64; 3]| (turn, Vector3::z().cross(up).dot(&Vector3::from(turn)));
-    // A body at rest is turned by the change of its rate times the time, as is one that has not turned yet.
-    if motion.phase(toss.launch.time_of_flight())? < SHORT {
-        let time = toss.launch.flight_time() * unit;
-        let turn = |input: usize| with_slope([0, 1, 2].map(|part| if part == input { time } else { 0.0 }));
-        return Ok(Some([0, 1, 2].map(turn)));
-    }
-    if !components_are_close(&given) || toss.body.moments().is_none() {
-        return Ok(None);
-    }
-    let rate = scaled(&given, &like);
-    let rate = principal.axes.each_ref().map(|axis| along(axis, &rate));
-    let spins: Vec<usize> = (0..3).filter(|axis| rate[*axis].sign() != 0.0).collect();
-    let &[a] = spins.as_slice() else { return Ok(None) };
-    let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into())?;
-    let (b, c) = ((a + 1) % 3, (a + 2) % 3);
-    let [i_a, i_b, i_c] = [a, b, c].map(|axis| principal.moments[axis]);
-    let (spin, angle) = (rate[a], rate[a] * time);
-    let [sin, cos] = angle.sine_and_cosine();
-    // δω_b = even δω_b(0) + odd (I_c - I_a)/I_b δω_c(0) and the like, where the square of λ may have both signs.
-    let [of_b, of_c] = [(i_c - i_a) / i_b, (i_a - i_b) / i_c];
-    let product = of_b * of_c;
-    let lambda = product.magnitude().sqrt() * spin.magnitude();
-    let (even, odd) = if lambda.sign() == 0.0 {
-        (DoubleDouble::from(1.0), angle)
-    } else if product.sign() < 0.0 {
-        let [sin, cos] = (lambda * time).sine_and_cosine();
-        (cos, sin * spin / lambda)
-    } else {
-        let [grown, fallen] = [lambda * time, -(lambda * time)].map(DoubleDouble::exp);
-        ((grown + fallen).half(), (grown - fallen).half() * spin / lambda)
-    };
-    let change = |input: usize| {
-        let [d_a, d_b, d_c] = [a, b, c].map(|axis| principal.axes[axis][input]);
-        let [b_now, c_now] = [even * d_b + odd * of_b * d_c, even * d_c + odd * of_c * d_b];
-        let momentum = i_a * spin;
-        let left_b = cos * i_b * d_b + sin * i_c * d_c - i_b * b_now;
-        let left_c = cos * i_c * d_c - sin * i_b * d_b - i_c * c_now;
-        let turn = [(a, time * d_a), (b, -left_c / momentum), (c, left_b / momentum)];
-        let along =
-            |column: usize| turn.iter().fold(like, |sum, (axis, part)| sum + principal.axes[*axis][column] * *part);
-        with_slope([0, 1, 2].map(|column| along(column).hi()))
-    };
-    Ok(Some([0, 1, 2].map(change)))
+/// The changes of a body at rest, or of one that has hardly turned yet, by a rate of 1 rad/s: it is turned by that times the time.
+/// `up` is the vertical (BF) at landing.
+fn changes_of_rest(toss: &Toss, up: &Vector3<f64>) -> [Change<f64>; 3] {
+    [0, 1, 2].map(|input| {
+        let turn = Vector3::ith(input, toss.launch.flight_time());
+        (turn.into(), Vector3::z().cross(up).dot(&turn))
+    })
 }
 
 #[cfg(test)]
@@ -371,11 +253,13 @@ mod tests {
         // A derivative by a rate is about the time.
         let shortest = of([13.0, -2e-185, 8e-320], 8e-320).unwrap();
         assert!((0..3).all(|axis| shortest.attitude[(axis, axis)] == 8e-320), "{shortest:?}");
-        // By 1e-200 beside the middle axis, the motion is another one after 577 e-folds; along ωx cos θ stays as it is.
+        // By 1e-200 beside the middle axis, the motion is another one after 577 e-folds.
         let launch = Launch::new([1e-200, 5.0, 0.0], TimeOfFlight::Given(1000.0)).unwrap();
         let toss = Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
         let grown = Sensitivity::new(&toss).unwrap();
-        assert!(grown.cos_tilt.x == 0.0 && grown.attitude.column(0).norm() > 1e40, "{grown:?}");
+        // cos θ changes with the square of what has grown.
+        let (column, slope) = (grown.attitude.column(0).norm(), grown.cos_tilt.x);
+        assert!(column > 1e40 && (0.01..1.0).contains(&(slope / (column * column * 1e-200))), "{grown:?}");
         // Next to the middle axis, what is so small grows in 10^3 rad to a motion that is not that without it.
         assert_eq!(of([1e-320, 5.0, 0.0], 1000.0).unwrap_err().kind(), "not_finite");
     }

@@ -9,36 +9,30 @@ use super::tosses::{Columns, attitude_error};
 /// Number of times that each launch is solved for, where its constants are to cost nothing.
 const TIMES: usize = 64;
 
+/// The numbers that the motion is computed in, but for a few launches.
+const NUMBERS: &str = "in double-double";
+
 /// A body of moments 1, 2 and 2.25, as far from symmetric as most things are.
 pub(super) fn body() -> Body {
     Body::from_moments([1.0, 2.0, 2.25]).expect("moments of a body")
 }
 
-/// How to make the motion of a toss.
-type Motion = fn(&Toss) -> ExactMotion;
-
-/// The ways to compute the motion.
-const MOTIONS: [(&str, Motion); 2] =
-    [("compensated", ExactMotion::compensated), ("in double-double", ExactMotion::new)];
-
 /// All ways to solve the launches of the columns.
 pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Contest<'a>> {
     let tosses = columns.each_of(body());
     let mut contests = Vec::new();
-    for (name, motion) in MOTIONS {
-        let launches = tosses.clone();
-        let cos_tilt = move |toss: &Toss| motion(toss).cos_tilt(toss.launch.time_of_flight()).unwrap_or(f64::NAN);
-        let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(cos_tilt(toss)));
-        contests.push(contest("cos θ", name, tosses.len(), None, run));
-        let launches = tosses.clone();
-        let attitude = move |toss: &Toss| {
-            motion(toss).state(toss.launch.time_of_flight()).map_or(Attitude::IDENTITY, |state| state.attitude)
-        };
-        let error = attitude_error(&tosses, tosses.iter().map(attitude));
-        let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(attitude(toss)));
-        contests.push(contest("attitude", name, tosses.len(), Some(error), run));
-        contests.push(further_times(&tosses, name, motion));
-    }
+    let launches = tosses.clone();
+    let cos_tilt = |toss: &Toss| ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight()).unwrap_or(f64::NAN);
+    let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(cos_tilt(toss)));
+    contests.push(contest("cos θ", NUMBERS, tosses.len(), None, run));
+    let launches = tosses.clone();
+    let attitude = |toss: &Toss| {
+        ExactMotion::new(toss).state(toss.launch.time_of_flight()).map_or(Attitude::IDENTITY, |state| state.attitude)
+    };
+    let error = attitude_error(&tosses, tosses.iter().map(attitude));
+    let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(attitude(toss)));
+    contests.push(contest("attitude", NUMBERS, tosses.len(), Some(error), run));
+    contests.push(further_times(&tosses));
     let launches = tosses.clone();
     let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify(toss)));
     contests.push(contest("proven outcome", "one by one", tosses.len(), None, run));
@@ -54,9 +48,9 @@ fn batch(columns: &Columns, level: SimdLevel) -> Contest<'_> {
 }
 
 /// cos θ at many times of a few launches, whose constants are computed before.
-fn further_times<'a>(tosses: &[Toss], name: &str, motion: Motion) -> Contest<'a> {
+fn further_times<'a>(tosses: &[Toss]) -> Contest<'a> {
     let few: Vec<(ExactMotion, f64)> =
-        tosses.iter().take(TIMES).map(|toss| (motion(toss), toss.launch.flight_time())).collect();
+        tosses.iter().take(TIMES).map(|toss| (ExactMotion::new(toss), toss.launch.flight_time())).collect();
     let solved = few.len() * TIMES;
     let run = move || {
         for (motion, flight_time) in &few {
@@ -66,7 +60,7 @@ fn further_times<'a>(tosses: &[Toss], name: &str, motion: Motion) -> Contest<'a>
             }
         }
     };
-    contest("cos θ at a further time", name, solved, None, run)
+    contest("cos θ at a further time", NUMBERS, solved, None, run)
 }
 
 fn contest<'a>(what: &str, name: &str, tosses: usize, error: Option<f64>, run: impl FnMut() + 'a) -> Contest<'a> {

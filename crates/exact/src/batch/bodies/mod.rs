@@ -1,7 +1,37 @@
 //! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
 //! SIMD registers and decides nearly all of them; [`certify`] proves the few that it leaves.
 //!
-//! The formulas are those of [`rigid`](crate::rigid), in plain f64: the series of theta functions at all nomes, and no
+//! # The motion by theta functions
+//! Single tosses double a point of an elliptic curve ([`rigid`](crate::rigid)). Lanes take functions of two phases, which have
+//! the same short length for every launch. Let the principal axes be 1, 2, 3, m = I ω the angular momentum in the body frame
+//! (BF), G = |m|, T the kinetic energy and α_ij = (I_j - I_i)/(I_i I_j). The sign of
+//!
+//! ```text
+//! E = I3 (I3 - I2) ω3² - I1 (I2 - I1) ω1² = G² - 2 T I2
+//! ```
+//!
+//! tells which axis m circles in BF: that of the largest moment for E > 0, that of the smallest for E < 0, after which
+//! the axes are relabelled (1, 2, 3) → (3, -2, 1). Two axes are reversed if m3 < 0. Then, with no difference that
+//! cancels,
+//!
+//! ```text
+//! P1 = α12 m2² + α13 m3²,   P3 = α13 m1² + α23 m2²,   λ = ±√(P1 α23)                      the sign of α13
+//! k² = α12 P3/(α23 P1),     k'² = |α13 E|/(I2 |α23 P1|)
+//! m ~ (b1 cn u, b2 sn u, b3 dn u),   u = λt + u0,   b1 : b2 = √|α23| : √|α13|              C. G. J. Jacobi 1849
+//! c = F(atan √(α23/α12) | k'²),      v = K' - c = F(atan √(P1/P3) | k'²),   x = πu/(2K)
+//! ```
+//!
+//! and the attitude R, relative to axes whose third is along m, is the quaternion w + iz = A, x + iy = B of
+//!
+//! ```text
+//! A : B = e^(iΩt/2) (θ4(z | q²) : θ1(z | q²)),    z = x - iπc/(2K),    q = exp(-πK'/K)
+//! Ω = G/I3 + G α13 (P3/P1) J/K,  or  G/I1 + G |α13| Π/K  for α13 < 0, where no part of a sum cancels another
+//! J = ∫ sin²/((cos² + p sin²) √(cos² + k'² sin²)),  Π the same of 1 instead of sin²,  from 0 to π/2,  p = α13 G²/P1
+//! Q(t) = Q0 p⁻¹ R(0)⁻¹ R(t) p,      p from BF to the relabelled axes
+//! ```
+//!
+//! # The filter
+//! All is in plain f64: the series of theta functions at all nomes, and no
 //! branch. Launches around the axis of the largest moment stand beside those around the smallest in a register. Outcomes
 //! need few digits, so that sums end early:
 //!

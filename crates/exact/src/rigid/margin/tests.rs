@@ -3,6 +3,7 @@
 use dynamics::{Attitude, Body, Launch, Vector3};
 
 use super::*;
+use crate::rigid::ExactMotion;
 
 fn toss(moments: [f64; 3], rate: [f64; 3], flight: TimeOfFlight, tilt: f64) -> Toss {
     let launch = Launch::new(rate, flight).unwrap().with_attitude(Attitude::about_x(tilt));

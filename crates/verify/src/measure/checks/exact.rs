@@ -341,16 +341,7 @@ pub(super) const RIGID_COS_TILT: Check = Check {
     claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the limit, for phases \
             from 1 to 1e9 rad.",
     ceiling: 1e-15,
-    measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::new), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const RIGID_COMPENSATED_COS_TILT: Check = Check {
-    id: "rigid-compensated-cos-tilt",
-    claim: "cos θ at landing of any rigid body by the compensated motion, whose sums are in f64, differs from the \
-            256-bit reference by at most the limit, for phases from 1 to 1e9 rad.",
-    ceiling: 1e-14,
-    measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::compensated), Fold::Largest),
+    measure: Measure::Tosses(rigid_cos_tilts, Fold::Largest),
     ..Check::OF_LIBRARY
 };
 
@@ -360,17 +351,7 @@ pub(super) const RIGID_ATTITUDE: Check = Check {
             phases from 1 to 1e9 rad.",
     unit: "rad",
     ceiling: 1e-14,
-    measure: Measure::Tosses(|| rigid_attitudes(ExactMotion::new), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const RIGID_COMPENSATED_ATTITUDE: Check = Check {
-    id: "rigid-compensated-attitude",
-    claim: "The attitude at landing of any rigid body by the compensated motion, whose sums are in f64, differs from \
-            the 256-bit reference by at most the limit, for phases from 1 to 1e9 rad.",
-    unit: "rad",
-    ceiling: 1e-14,
-    measure: Measure::Tosses(|| rigid_attitudes(ExactMotion::compensated), Fold::Largest),
+    measure: Measure::Tosses(rigid_attitudes, Fold::Largest),
     ..Check::OF_LIBRARY
 };
 
@@ -392,16 +373,16 @@ fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + S
 }
 
 /// Errors of cos θ.
-fn rigid_cos_tilts(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
-    on_long_flights(move |toss, reference| {
-        Ok(reference.cos_tilt_error(motion(toss).cos_tilt(toss.launch.time_of_flight())?))
+fn rigid_cos_tilts() -> Vec<Set> {
+    on_long_flights(|toss, reference| {
+        Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
     })
 }
 
 /// Angles to the exact attitude (rad).
-fn rigid_attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
-    on_long_flights(move |toss, reference| {
-        Ok(reference.attitude_error(&motion(toss).state(toss.launch.time_of_flight())?.attitude))
+fn rigid_attitudes() -> Vec<Set> {
+    on_long_flights(|toss, reference| {
+        Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
     })
 }
 

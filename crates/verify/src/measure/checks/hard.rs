@@ -81,23 +81,13 @@ pub(super) const ATTITUDE: Check = Check {
             eight families without a simple case and phases of 1 to 30 rad.",
     ceiling: 1e-14,
     unit: "rad",
-    measure: Measure::Tosses(|| attitudes(ExactMotion::new), Fold::Largest),
+    measure: Measure::Tosses(attitudes, Fold::Largest),
     ..OF_FAMILIES
 };
 
-pub(super) const COMPENSATED_ATTITUDE: Check = Check {
-    id: "hard-compensated-attitude",
-    claim: "The attitude at landing from the compensated motion, whose sums are in f64, differs from the reference by at \
-            most the limit, for bodies of eight families without a simple case and phases of 1 to 30 rad.",
-    ceiling: 1e-14,
-    unit: "rad",
-    measure: Measure::Tosses(|| attitudes(ExactMotion::compensated), Fold::Largest),
-    ..OF_FAMILIES
-};
-
-fn attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
-    on_cases(move |toss, reference| {
-        Ok(reference.attitude_error(&motion(toss).state(toss.launch.time_of_flight())?.attitude))
+fn attitudes() -> Vec<Set> {
+    on_cases(|toss, reference| {
+        Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
     })
 }
 
