@@ -52,14 +52,13 @@ mod constants;
 mod curve;
 mod doubling;
 mod form;
-mod margin;
+pub(crate) mod line;
 mod phases;
 mod quaternion;
 mod regime;
 mod sensitivity;
 mod tensor;
 mod tensor_toss;
-mod walk;
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
@@ -72,7 +71,6 @@ pub use angles::RigidAngles;
 pub use certified::certify;
 pub(crate) use certified::cos_tilt_with_error;
 use curve::Curve;
-pub use margin::{margin, speeds_of_heads};
 pub use regime::Regime;
 
 use crate::given::{components_are_close, scaled};
@@ -214,17 +212,6 @@ impl ExactMotion {
         Ok(State { attitude: self.launch.attitude * turn, rate: Vector3::from(rate) })
     }
 
-    /// The turn (of any norm) from the body at launch to the body at `time`; `None` for a coin.
-    fn turn(&self, time: ExactTime) -> Result<Option<Quaternion<DoubleDouble>>, SolveError> {
-        // Heights near 0 lose digits of the turn.
-        const WITHIN: f64 = 1.355_252_715_606_880_5e-20; // 2^-66
-        Ok(match &self.kind {
-            Kind::Coin(_) => None,
-            Kind::Rigid(motion) => Some(motion.turn(time)?),
-            Kind::Tensor(toss) => Some(turn_and_rate(toss, time, WITHIN)?.0),
-        })
-    }
-
     /// The time in the unit of the curve, and the unit of the rates (rad/s); of a body without a curve, both as they are.
     fn time_and_unit(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
         match &self.kind {
@@ -277,15 +264,6 @@ impl RigidMotion {
             }
         };
         Ok((turn, rate.map(|part| (part * self.unit).times_power_of_two(self.exponent).hi())))
-    }
-
-    /// The turn (of any norm) from the body at launch to the body at `time`.
-    fn turn(&self, time: ExactTime) -> Result<Quaternion<DoubleDouble>, SolveError> {
-        let (time, _) = self.own_time(time)?;
-        Ok(match &self.curve {
-            Sums::F64(curve) => curve.turn(&time).map(DoubleDouble::from),
-            Sums::DoubleDouble(curve) => curve.turn(&time),
-        })
     }
 
     /// The time in the unit of the curve, and the larger phase (rad).

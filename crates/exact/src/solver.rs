@@ -50,7 +50,7 @@ mod tests {
 
     use super::*;
     use crate::motion::COS_TILT_ERROR;
-    use crate::rigid::{certify, margin};
+    use crate::{certify, margin};
 
     fn launch() -> Launch {
         Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap()

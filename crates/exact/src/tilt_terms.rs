@@ -129,13 +129,75 @@ pub(crate) fn cos_tilt_in<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N
         return m_z;
     }
     let [x, y, z] = scaled(&rate, time);
-    let momentum = [x.clone(), y.clone(), k * z];
-    let across = x.clone() * x + y.clone() * y;
-    let squared = across.clone() + momentum[2].clone() * momentum[2].clone();
+    let [height, squared] = height_and_scale(&[x, y, k * z], time, vertical);
+    height / squared
+}
+
+/// |L|² cos θ, and |L|², in any kind of number, from the momentum L, the time in the inverse of its unit, and the vertical
+/// (BF) at launch.
+fn height_and_scale<N: Elementary>([x, y, z]: &[N; 3], time: &N, vertical: [N; 3]) -> [N; 2] {
+    let across = x.clone() * x.clone() + y.clone() * y.clone();
+    let squared = across.clone() + z.clone() * z.clone();
     let size = squared.sqrt();
     let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
-    let [mean, cosine, sine] = terms(vertical, momentum, across);
-    (mean + cosine * cos + sine * size * sin) / squared
+    let [mean, cosine, sine] = terms(vertical, [x.clone(), y.clone(), z.clone()], across);
+    [mean + cosine * cos + sine * size * sin, squared]
+}
+
+/// cos θ times a positive number, as [`cos_tilt_in`]; also over an interval in which L vanishes. There it is by power series:
+/// with Φ = L T, φ = |Φ|,
+///
+/// ```text
+/// cos θ = mz (1 - φ² V) + S (mx Φy - my Φx) + V Φz (m·Φ)        S = sin φ/φ, V = (1 - cos φ)/φ²
+/// ```
+pub(crate) fn scaled_cos_tilt<N: Elementary>(momentum: &[N; 3], time: &N, vertical: [N; 3]) -> N {
+    let [x, y, z] = momentum.each_ref().map(|part| part.clone() * time.clone());
+    let squared = x.clone() * x.clone() + y.clone() * y.clone() + z.clone() * z.clone();
+    let Some([s, v]) = small_phase(&squared) else {
+        let [height, _] = height_and_scale(momentum, time, vertical);
+        return height;
+    };
+    let [m_x, m_y, m_z] = vertical;
+    let across = m_x.clone() * y.clone() - m_y.clone() * x.clone();
+    let level = m_x * x + m_y * y + m_z.clone() * z.clone();
+    m_z.clone() + s * across + v * (z * level - m_z * squared)
+}
+
+/// S and V of a φ² of at most 4; `None` if it may be larger.
+///
+/// From the term of φ²ᵏ on, they differ from their series by at most 2 φ²ᵏ/(2k + 1)!.
+fn small_phase<N: Elementary>(squared: &N) -> Option<[N; 2]> {
+    let most = Some(squared.bound()).filter(|most| *most <= 4.0)?;
+    // -log2 of what is left out.
+    let (mut count, mut left) = (0.0_f64, -1.0);
+    let of_square = f64::log2(most).max(-1000.0);
+    while left < f64::from(squared.digits()) + 10.0 {
+        count += 1.0;
+        left += (2.0 * count * (2.0 * count + 1.0)).log2() - of_square;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "at most some thousand")]
+    let rest = squared.like(0.0).widened(1.0).times_power_of_two(-left.floor().min(1e6) as i32);
+    let sum = |first: f64| {
+        let mut sum = squared.like(1.0);
+        let mut order = count - 1.0;
+        while order > 0.0 {
+            let divisor = (2.0 * order + first - 1.0) * (2.0 * order + first);
+            sum = squared.like(1.0) - squared.clone() * sum / squared.like(divisor);
+            order -= 1.0;
+        }
+        sum / squared.like(first) + rest.clone()
+    };
+    Some([sum(1.0), sum(2.0)])
+}
+
+/// The sign of cos θ if it is the same at every phase: the cone of n does not reach the horizontal, where A² > B² + C², which
+/// is (m·L)² > Lx² + Ly².
+pub(crate) fn sign_at_any_phase<N: Elementary>([x, y, z]: &[N; 3], vertical: &[N; 3]) -> Option<f64> {
+    let [m_x, m_y, m_z] = vertical.clone();
+    let level = m_x * x.clone() + m_y * y.clone() + m_z * z.clone();
+    let beyond = level.clone() * level.clone() - (x.clone() * x.clone() + y.clone() * y.clone());
+    let known_sign = |number: &N| if number.has_known_sign() { number.sign() } else { 0.0 };
+    Some(known_sign(&level) * known_sign(z)).filter(|sign| *sign != 0.0 && known_sign(&beyond) > 0.0)
 }
 
 #[cfg(test)]
