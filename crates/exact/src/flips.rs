@@ -132,7 +132,7 @@ impl<'a> Flips<'a> {
         if self.is_over() {
             return Some(End::Limit);
         }
-        if self.work > MOST_WORK || self.sign == 0.0 || self.step < f64::MIN_POSITIVE {
+        if self.work > MOST_WORK || self.sign == 0.0 || self.step == 0.0 {
             return Some(End::Spent(self.reached()));
         }
         let step = self.step.min(self.limit - self.distance);
@@ -213,8 +213,9 @@ impl<'a> Flips<'a> {
     fn next_interval(&self, step: f64) -> [f64; 2] {
         let middle = self.origin + self.sense * (self.distance + 0.5 * step);
         // The middle is rounded, and so are both ends. From another origin a rounding of it may be left out, which is some
-        // thousandth of the resolution.
-        [middle, 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step)]
+        // thousandth of the resolution. Below the normal numbers a rounding is one of the smallest.
+        let roundings = 2.0 * f64::EPSILON * (middle.abs() + step) + 2.0 * f64::from_bits(1);
+        [middle, 0.5 * step + roundings]
     }
 
     /// A step or two after which the outcome is decided, and its sign. One step may end on a tie. The limit needs no

@@ -12,6 +12,7 @@ mod time;
 
 use dynamics::phase::LARGEST_PHASE;
 use dynamics::{CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Toss};
+use numerics::Elementary;
 
 use crate::flips::{Enclosure, End, Flips};
 use crate::rigid::certify;
@@ -144,10 +145,12 @@ fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> Found {
     let line = Line::new(toss, Input::Rate(axis));
     let range = rate_range(&toss.launch);
     let limits = [1.0, -1.0].map(|sense| toss.coin().map_or(range, |toss| limit(&toss, axis, sense).min(range)));
-    let searches = [(1.0, limits[0]), (-1.0, limits[1])];
-    match Flips::nearer(searches.map(|(sense, limit)| Flips::new(&line, outcome, sense, limit, 0.0))) {
-        Ok(change) => (change, range),
-        Err(distance) => (None, distance),
+    let searches = [(1.0, limits[0]), (-1.0, limits[1])]
+        .map(|(sense, limit)| Flips::new(&line, outcome, sense, limit.times_power_of_two(-line.exponent()), 0.0));
+    let rate = |change: f64| change.times_power_of_two(line.exponent());
+    match Flips::nearer(searches) {
+        Ok(change) => (change.map(rate), range),
+        Err(distance) => (None, rate(distance)),
     }
 }
 

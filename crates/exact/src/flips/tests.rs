@@ -78,8 +78,8 @@ fn a_search_goes_on_while_it_has_work_a_sign_and_a_step() {
         (1e-6, 1.0, sign, MOST_WORK + 1, false),
         (1e-6, 1.0, sign, MOST_WORK + 2, false),
         (1e-6, 1.0, 0.0, 0, false),
-        (f64::MIN_POSITIVE, f64::MIN_POSITIVE, sign, 0, true),
-        (f64::MIN_POSITIVE, 0.5 * f64::MIN_POSITIVE, sign, 0, false),
+        (f64::from_bits(2), f64::from_bits(1), sign, 0, true),
+        (f64::from_bits(2), 0.0, sign, 0, false),
     ] {
         let mut search = Flips { step, sign, work, ..Flips::new(&line, Outcome::Heads, 1.0, limit, 0.0) };
         assert_eq!(search.next(), if goes_on { End::Limit } else { End::Spent(0.0) }, "{limit} {sign} {work}");

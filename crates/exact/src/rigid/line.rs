@@ -67,6 +67,8 @@ struct Stage<B> {
     /// The time of flight is `mantissa` 2^`exponent` s.
     mantissa: B,
     exponent: i32,
+    /// Changes of a rate are in units of 2^`change_exponent` rad/s.
+    change_exponent: i32,
     /// The unit of the rates as they were given (rad/s).
     unit: B,
     /// I3/I1 of a coin.
@@ -99,18 +101,24 @@ impl<'a> Line<'a> {
         };
         let ratio = toss.coin().map(|toss| inertia_ratio(&toss.coin));
         let in_double_double = vertical.in_double_double(&toss.launch.attitude());
-        let exponent = time.exponent();
-        let fine = Stage { vertical: in_double_double, mantissa, exponent, unit, ratio, fixed: None };
+        let (exponent, change_exponent) = (time.exponent(), if input == Input::Time { 0 } else { -time.exponent() });
+        let fine = Stage { vertical: in_double_double, mantissa, exponent, change_exponent, unit, ratio, fixed: None };
         let rough = Stage {
             vertical: fine.vertical.each_ref().map(rounded),
             mantissa: rounded(&fine.mantissa),
             exponent,
+            change_exponent,
             unit: rounded(&fine.unit),
             ratio: fine.ratio.as_ref().map(rounded),
             fixed: None,
         };
         let (rough, fine) = (rough.with_curve(toss, input), fine.with_curve(toss, input));
         Self { toss, kind, input, vertical, rough, fine, many: Default::default() }
+    }
+
+    /// Changes of the input are in units of 2 to this power: those of a rate in turns of the launch, up to a factor.
+    pub(crate) fn exponent(&self) -> i32 {
+        self.fine.change_exponent
     }
 
     /// The work of an evaluation in each stage.
@@ -185,15 +193,15 @@ impl<B: Elementary> Stage<B> {
 
     /// The rates (BF) for a ball of changes, in a unit near the largest.
     fn rates(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> [B; 3] {
-        let exponent = unit_exponent(toss, input, change);
+        let exponent = self.unit_exponent(toss, input, change);
         let number = |value: f64| self.mantissa.like(value).times_power_of_two(-exponent);
         let (rate, unit) = toss.launch.given_rate();
         let of_unit =
             |value: f64| if unit == AngleUnit::RADIAN { number(value) } else { number(value) * self.unit.clone() };
         let mut rates = [0, 1, 2].map(|axis: usize| of_unit(rate[axis]));
         if let Input::Rate(axis) = input {
-            let width = radius * 2f64.powi(-exponent);
-            rates[axis] = (rates[axis].clone() + number(change)).widened(width);
+            let in_unit = |value: f64| self.mantissa.like(value).times_power_of_two(self.change_exponent - exponent);
+            rates[axis] = (rates[axis].clone() + in_unit(change)).widened(in_unit(radius).bound());
         }
         rates
     }
@@ -207,7 +215,7 @@ impl<B: Elementary> Stage<B> {
         [change, radius]: [f64; 2],
         number: fn(B, B) -> N,
     ) -> Given<N> {
-        let exponent = unit_exponent(toss, input, change);
+        let exponent = self.unit_exponent(toss, input, change);
         let part = |value: f64, exponent: i32| self.mantissa.like(value).times_power_of_two(exponent);
         let fixed = |value: B| number(value.clone(), value.like(0.0));
         let values = self.rates(toss, input, change, 0.0);
@@ -215,16 +223,24 @@ impl<B: Elementary> Stage<B> {
         let mut time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let mut width = part(0.0, 0);
         match input {
-            Input::Rate(axis) => rate[axis] = number(values[axis].clone(), part(radius, -exponent)),
+            Input::Rate(axis) => {
+                rate[axis] = number(values[axis].clone(), part(radius, self.change_exponent - exponent))
+            }
             Input::Time => (time, width) = (time + part(change, exponent), part(radius, exponent)),
         }
         let ratio = self.ratio.clone().map(fixed);
         Given { rate, time: number(time, width), vertical: self.vertical.clone().map(fixed), ratio }
     }
 
+    /// Exponent of the unit of the rates, a power of two near the largest.
+    fn unit_exponent(&self, toss: &Toss, input: Input, change: f64) -> i32 {
+        let changed = matches!(input, Input::Rate(_)).then(|| change.abs().times_power_of_two(self.change_exponent));
+        mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax().max(changed.unwrap_or(0.0)))).1
+    }
+
     /// cos θ for all changes within `radius` of `change`.
     fn height(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
-        let exponent = unit_exponent(toss, input, change);
+        let exponent = self.unit_exponent(toss, input, change);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let turn = if input == Input::Time {
             let change = time.like(change).widened(radius).times_power_of_two(exponent);
@@ -244,6 +260,7 @@ impl Stage<WideBall> {
             vertical: line.vertical.in_digits(&toss.launch.attitude(), digits),
             mantissa: time_in_digits(&toss.launch, digits),
             exponent: 0,
+            change_exponent: line.fine.change_exponent,
             unit: right_to_roundings(toss.launch.given_rate().1.in_digits(digits), digits),
             ratio,
             fixed: None,
@@ -287,12 +304,6 @@ impl<N: Elementary> Given<N> {
         let turn = doubling::Curve::new(tensor(toss, &self.time), self.rate).turn(&self.time)?;
         Some(cos_tilt(&turn, &self.vertical))
     }
-}
-
-/// Exponent of the unit of the rates, a power of two near the largest.
-fn unit_exponent(toss: &Toss, input: Input, change: f64) -> i32 {
-    let moved = if let Input::Rate(_) = input { change.abs() } else { 0.0 };
-    mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax().max(moved))).1
 }
 
 #[cfg(test)]

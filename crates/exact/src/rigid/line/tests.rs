@@ -33,7 +33,7 @@ fn balls_of_rates_contain_the_rates_as_they_were_given_and_all_changes() {
         let (toss, input) = (Toss { body, launch }, Input::Rate(1));
         let fine = Line::new(&toss, input).fine;
         for (change, radius) in [(0.0, 0.0), (0.3 * scale, 0.0), (-0.2 * scale, 0.01 * scale)] {
-            let unit = -unit_exponent(&toss, input, change);
+            let unit = -fine.unit_exponent(&toss, input, change);
             let in_unit = |value: f64| exactly(value).times_power_of_two(unit);
             for (axis, ball) in fine.rates(&toss, input, change, radius).into_iter().enumerate() {
                 let [change, radius] = if axis == 1 { [change, radius].map(in_unit) } else { [0.0; 2].map(exactly) };
