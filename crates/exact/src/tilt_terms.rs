@@ -218,6 +218,79 @@ mod tests {
         }
     }
 
+    /// Over intervals of a rate, next to a turn of 0, where the series is taken, and far from it.
+    #[test]
+    fn cos_tilt_over_an_interval_contains_those_of_its_numbers() {
+        use numerics::{Ball, DoubleDouble, TaylorModel};
+        let vertical = [0.36, -0.48, 0.8];
+        for ([x, y, z], axis) in [([0.1, -0.2, 0.3], 0), ([0.0; 3], 1), ([0.0; 3], 2), ([7.0, -2.0, 30.0], 2)] {
+            for (middle, width) in [(0.0, 1e-9), (0.05, 0.3), (-0.3, 0.5), (0.4, 0.01)] {
+                let at = |change: f64| {
+                    let number = |value: f64| Ball::new(DoubleDouble::from(value), 0.0);
+                    let mut momentum = [x, y, z].map(number);
+                    momentum[axis] =
+                        momentum[axis] + number(middle) + Ball::new(DoubleDouble::product(width, change), 0.0);
+                    scaled_cos_tilt(&momentum, &number(1.0), vertical.map(number))
+                };
+                let number = |value: f64| TaylorModel::constant(Ball::new(value, 0.0));
+                let mut momentum = [x, y, z].map(number);
+                let moved = TaylorModel::variable(Ball::new(middle, 0.0), Ball::new(width, 0.0));
+                momentum[axis] = momentum[axis].clone() + moved;
+                let (polynomial, error) = scaled_cos_tilt(&momentum, &number(1.0), vertical.map(number)).polynomial();
+                assert!(error < 1e-12 + 40.0 * width.powi(5), "{x} {axis} {middle} {width}: {error:e}");
+                for step in -10..=10 {
+                    let change = f64::from(step) / 10.0;
+                    let value = polynomial.iter().rev().fold(0.0, |sum, coefficient| sum * change + coefficient);
+                    let off = (at(change).midpoint().hi() - value).abs();
+                    assert!(
+                        off <= error + 1e-13 * value.abs(),
+                        "{x} {axis} {middle} {width} {change}: {off:e} {error:e}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_phase_has_the_sine_and_cosine_of_its_size() {
+        use numerics::{Ball, DoubleDouble};
+        for phase in [1e-30, 1e-3, 0.7, 1.99] {
+            let number = DoubleDouble::product(phase, phase);
+            let [s, v] = small_phase(&Ball::new(number, 0.0)).unwrap();
+            let (sin, cos) = DoubleDouble::from(phase).exact_sin_cos();
+            let sine = s * Ball::new(phase.into(), 0.0) - Ball::new(sin, 0.0);
+            let cosine = Ball::new(DoubleDouble::from(1.0) - cos, 0.0) - v * Ball::new(number, 0.0);
+            for off in [sine, cosine] {
+                assert!(off.midpoint().hi().abs() < 1e-29 && off.radius() < 1e-28, "{phase}: {off:?}");
+            }
+        }
+        assert_eq!(small_phase(&Ball::new(4.0, 0.1)), None);
+    }
+
+    /// Against the least and the greatest cos θ over a turn, A ± √(B² + C²).
+    #[test]
+    fn a_sign_at_any_phase_is_that_of_a_cone_above_or_below_the_horizontal() {
+        let mut counts = [0; 3];
+        for index in 1..2000 {
+            let part = |root: f64| 2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0;
+            let [momentum, vertical] = [[2.0, 3.0, 5.0], [7.0, 11.0, 13.0]].map(|roots| roots.map(part));
+            let norm = vertical.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let vertical = vertical.map(|part| part / norm);
+            let ball = |numbers: [f64; 3]| numbers.map(|part| numerics::Ball::new(part, 1e-9));
+            let [mean, cosine, sine] = {
+                let [x, y, z] = momentum;
+                let [mean, cosine, sine] = terms(vertical, momentum, x * x + y * y);
+                [mean, cosine, sine * (x * x + y * y + z * z).sqrt()]
+            };
+            let amplitude = cosine.hypot(sine);
+            let expected = if mean.abs() > amplitude { Some(mean.signum()) } else { None };
+            let found = sign_at_any_phase(&ball(momentum), &ball(vertical));
+            assert!(found == expected || (mean.abs() - amplitude).abs() < 1e-6, "{momentum:?} {vertical:?}: {found:?}");
+            counts[found.map_or(0, |sign| if sign > 0.0 { 1 } else { 2 })] += 1;
+        }
+        assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+    }
+
     #[test]
     fn errors_are_those_of_the_derivation() {
         assert_eq!([TERM_ERROR, PHASE_ERROR], [12.0, 6.0].map(|units: f64| units * f64::exp2(-53.0)));

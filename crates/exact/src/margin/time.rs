@@ -181,7 +181,7 @@ mod tests {
                 }
             }
         }
-        assert!(found > 100 && open > 10, "{found} {open}");
+        assert!(found > 200 && open > 5, "{found} {open}");
     }
 
     #[test]

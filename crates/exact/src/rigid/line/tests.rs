@@ -35,8 +35,10 @@ fn balls_of_rates_contain_the_rates_as_they_were_given_and_all_changes() {
         for (change, radius) in [(0.0, 0.0), (0.3 * scale, 0.0), (-0.2 * scale, 0.01 * scale)] {
             let unit = -fine.unit_exponent(&toss, input, change);
             let in_unit = |value: f64| exactly(value).times_power_of_two(unit);
+            let changed = |value: f64| in_unit(value).times_power_of_two(fine.change_exponent);
             for (axis, ball) in fine.rates(&toss, input, change, radius).into_iter().enumerate() {
-                let [change, radius] = if axis == 1 { [change, radius].map(in_unit) } else { [0.0; 2].map(exactly) };
+                let [change, radius] =
+                    [change, radius].map(|part| if axis == 1 { changed(part) } else { exactly(0.0) });
                 let off = (exactly(3.0) * (ball.to_big() - change) - in_unit(rate[axis])).magnitude();
                 let (least, found) = (off + exactly(3.0) * &radius, exactly(3.0) * exactly(ball.radius()));
                 assert!(least <= found, "{scale} {axis}: {}", ball.radius());
