@@ -201,7 +201,7 @@ impl<B: Elementary> Stage<B> {
         let mut rates = [0, 1, 2].map(|axis: usize| of_unit(rate[axis]));
         if let Input::Rate(axis) = input {
             let in_unit = |value: f64| self.mantissa.like(value).times_power_of_two(self.change_exponent - exponent);
-            rates[axis] = (rates[axis].clone() + in_unit(change)).widened(in_unit(radius).bound());
+            rates[axis] = (rates[axis].clone() + in_unit(change)).widened(in_unit(radius).to_f64());
         }
         rates
     }
