@@ -145,9 +145,10 @@ fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> Found {
     let line = Line::new(toss, Input::Rate(axis));
     let range = rate_range(&toss.launch);
     let limits = [1.0, -1.0].map(|sense| toss.coin().map_or(range, |toss| limit(&toss, axis, sense).min(range)));
-    let searches = [(1.0, limits[0]), (-1.0, limits[1])]
-        .map(|(sense, limit)| Flips::new(&line, outcome, sense, limit.times_power_of_two(-line.exponent()), 0.0));
-    let rate = |change: f64| change.times_power_of_two(line.exponent());
+    let searches = [(1.0, limits[0]), (-1.0, limits[1])].map(|(sense, limit)| {
+        Flips::new(&line, outcome, sense, limit.times_power_of_two(-line.change_exponent()), 0.0)
+    });
+    let rate = |change: f64| change.times_power_of_two(line.change_exponent());
     match Flips::nearer(searches) {
         Ok(change) => (change.map(rate), range),
         Err(distance) => (None, rate(distance)),

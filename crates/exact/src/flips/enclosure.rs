@@ -104,7 +104,7 @@ impl Enclosure {
 /// The length over which a function stays positive that has this value and slope, and whose second derivative is at least
 /// -`bend`; 0 if the value is not positive.
 fn length_above_0(value: f64, slope: f64, bend: f64) -> f64 {
-    if !(value > 0.0) {
+    if value <= 0.0 || value.is_nan() {
         return 0.0;
     }
     // Squares of values next to the smallest f64 would be 0.

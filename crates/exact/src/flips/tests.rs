@@ -115,7 +115,7 @@ fn a_tie_is_passed_by_another_step() {
     let line = Line::new(&toss, Input::Rate(0));
     let sign = line.sign_at(0.0, &mut 0);
     let mut search = Flips::new(&line, line.outcome_at(0.0), -1.0, 1000.0, 0.0);
-    let step = 0.5f64.times_power_of_two(-line.exponent());
+    let step = 0.5f64.times_power_of_two(-line.change_exponent());
     assert_eq!((sign, search.decided_after(step)), (-1.0, Some((2.0 * step, 1.0))));
 }
 

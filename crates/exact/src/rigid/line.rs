@@ -117,7 +117,7 @@ impl<'a> Line<'a> {
     }
 
     /// Changes of the input are in units of 2 to this power: those of a rate in turns of the launch, up to a factor.
-    pub(crate) fn exponent(&self) -> i32 {
+    pub(crate) fn change_exponent(&self) -> i32 {
         self.fine.change_exponent
     }
 
@@ -224,7 +224,7 @@ impl<B: Elementary> Stage<B> {
         let mut width = part(0.0, 0);
         match input {
             Input::Rate(axis) => {
-                rate[axis] = number(values[axis].clone(), part(radius, self.change_exponent - exponent))
+                rate[axis] = number(values[axis].clone(), part(radius, self.change_exponent - exponent));
             }
             Input::Time => (time, width) = (time + part(change, exponent), part(radius, exponent)),
         }
