@@ -49,7 +49,7 @@ use dynamics::{Attitude, CoinToss, Outcome, SolveError, Stage};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 use crate::certificate::Certificate;
-use crate::given::in_double_double;
+use crate::given::{in_double_double, inertia_ratio};
 use crate::motion::{CoinMotion, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
 use crate::tilt_terms::{TiltTerms, cos_tilt_in};
@@ -174,10 +174,7 @@ fn with_more_digits(toss: &CoinToss) -> Result<Certificate, SolveError> {
 /// in rad/s or differ too much.
 pub fn cos_tilt_in_double_double(toss: &CoinToss) -> Option<Ball<DoubleDouble>> {
     let (time, vertical) = in_double_double(&toss.launch)?;
-    // The ratio to 25 u² of itself, as the time; its last digits may be below the range of f64.
-    let k = toss.coin.exact_inertia_ratio();
-    let k = Ball::new(k, (2f64.powi(-97) * k.hi()).max(f64::MIN_POSITIVE));
-    Some(cos_tilt_in(toss, &time, vertical, k))
+    Some(cos_tilt_in(toss, &time, vertical, inertia_ratio(&toss.coin)))
 }
 
 /// Error bound of [`TiltTerms::height`] at a `phase` (rad), in units of [`TiltTerms::size`].

@@ -6,8 +6,8 @@
 //! |---|---|
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
 //! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
-//! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
-//! | the speeds that land heads, for a landing at any height | [`speeds_of_heads`] |
+//! | how far the other outcome is: the nearest flip by each input alone; the search for flips | [`mod@margin`], `flips` |
+//! | the speeds that land heads, for a landing at any height | [`speeds`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | a cheaper form, in compensated f64 | [`compensated`] |
 //! | outcomes with a proof, also in as many digits as it takes; the numbers as given; the types that carry the proof | [`certified`], `multiprecision`, `given`, [`certificate`] |
@@ -22,6 +22,7 @@ pub mod batch;
 pub mod certificate;
 pub mod certified;
 pub mod compensated;
+mod flips;
 mod given;
 pub mod heads;
 pub mod margin;
@@ -31,15 +32,17 @@ mod polar;
 pub mod rigid;
 pub mod sensitivity;
 pub mod solver;
+pub mod speeds;
 pub mod tilt_terms;
 
 pub use batch::{Batch, BodyFilter};
 pub use certificate::{Certificate, ProvenCounts, STAGES};
 pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use heads::HeadsPhases;
-pub use margin::{Margin, level_speeds_of_heads};
+pub use margin::{Margin, margin};
 pub use motion::CoinMotion;
-pub use rigid::{ExactMotion, RigidAngles, certify, margin, speeds_of_heads};
+pub use rigid::{ExactMotion, RigidAngles, certify};
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
+pub use speeds::{level_speeds_of_heads, speeds_of_heads};
 pub use tilt_terms::TiltTerms;

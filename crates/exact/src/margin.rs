@@ -1,36 +1,22 @@
 //! How far a toss is from the other outcome: for each input alone, the nearest value that lands the other way.
 //!
-//! The search walks along the exact motion in steps that are proven free of flips (`margin/search.rs`), so that it passes
-//! none over. What it walks along is the turn of the coin, Φ = (ωx, ωy, k ωz) T, on which cos θ depends so smoothly
-//! (`margin/height.rs`) that one value and one slope exclude a flip for up to some radians. A cone that does not reach the
-//! horizontal excludes one for good (`margin/line.rs`).
-//!
-//! | input | line of turns | searched |
+//! | input | found by | searched |
 //! |---|---|---|
-//! | ωx, ωy, ωz | parallel to an axis | changes up to [`Margin::rate_range`] |
-//! | time of flight | none: a closed form (`margin/time.rs`) | all |
-//! | speed, gravity | none: each time of flight has one of each | all |
-//! | tilt | none: f(δ) = f cos δ + f(90°) sin δ | all |
+//! | ωx, ωy, ωz | steps that are proven free of flips (`flips.rs`) | changes up to [`Margin::rate_range`] |
+//! | time of flight | the same; of a coin in closed form (`margin/time.rs`) | changes up to [`Margin::time_range`]; of a coin all |
+//! | speed, gravity | the flips in time: each time of flight has one of each | as the time |
+//! | tilt | cos θ = f cos δ + f(90°) sin δ | all |
 
-mod digits;
 mod flight;
-mod height;
-mod line;
-mod search;
 mod time;
 
 use dynamics::phase::LARGEST_PHASE;
-use dynamics::time_of_flight::ExactTime;
-use dynamics::{CoinToss, Launch, Outcome, SolveError, TimeOfFlight};
-use numerics::DoubleDouble;
+use dynamics::{CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Toss};
+use numerics::Elementary;
 
-pub(crate) use self::flight::speed_and_gravity;
-use self::height::Height;
-use self::line::Line;
-use self::search::{MOST_WORK, Walk};
-use crate::certified::certify_coin;
-use crate::heads::HeadsPhases;
-use crate::motion::CoinMotion;
+use crate::flips::{Enclosure, End, Flips};
+use crate::rigid::certify;
+use crate::rigid::line::{Input, Line};
 
 /// The changes of one input alone, with their signs, to the nearest value that lands the other way; each is right to a
 /// relative 1e-12.
@@ -66,33 +52,39 @@ pub struct Margin {
 const RATE_RANGE: f64 = 1000.0;
 
 /// Changes of the turn that are searched (rad), which bounds the work. Flips further away than some turns are rare.
-pub(crate) const TURN_RANGE: f64 = 2000.0;
+const TURN_RANGE: f64 = 2000.0;
 
-/// The margin of the toss of a coin.
+/// A flip, if a search found one, and how far the search went.
+type Found = (Option<f64>, f64);
+
+/// The margin of a toss. Those of a coin take some hundred microseconds.
+///
+/// Two flips nearer to each other than 5e-13 of their distance may count as none, but for those of a coin in time. All
+/// inputs of another body take some hundred milliseconds, and each search at most about half a second: a range says where
+/// it ended.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-pub(crate) fn margin_coin(toss: &CoinToss) -> Result<Margin, SolveError> {
-    let outcome = match certify_coin(toss)?.outcome() {
-        Outcome::Heads => 1.0,
-        Outcome::Tails => -1.0,
-        Outcome::Undecided => return Ok(Margin::on_edge(&toss.launch, rate_range(&toss.launch), None)),
-    };
-    let turn = line::turn(toss);
-    let [time, speed, gravity] = of_flight(toss, outcome)?;
-    let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, turn, outcome));
+pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
+    let (outcome, range) = (certify(toss)?.outcome(), rate_range(&toss.launch));
+    if outcome == Outcome::Undecided {
+        let (range, time_range) = if toss.coin().is_some() { (range, None) } else { (0.0, Some([0.0; 2])) };
+        return Ok(Margin::on_edge(&toss.launch, range, time_range));
+    }
+    let ([time, speed, gravity], time_range) = of_flight(toss, outcome)?;
+    let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
-    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range, time_range: None })
+    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss), rate, rate_range, time_range })
 }
 
 /// The largest change of a rate that is searched (rad/s).
-pub(crate) fn rate_range(launch: &Launch) -> f64 {
+fn rate_range(launch: &Launch) -> f64 {
     (10.0 * launch.rate().amax()).max(RATE_RANGE).min(TURN_RANGE / launch.flight_time()).min(f64::MAX)
 }
 
 impl Margin {
     /// The margin of an undecided toss, with these ranges.
-    pub(crate) fn on_edge(launch: &Launch, rate_range: f64, time_range: Option<[f64; 2]>) -> Self {
+    fn on_edge(launch: &Launch, rate_range: f64, time_range: Option<[f64; 2]>) -> Self {
         let zero = Some(0.0);
         let thrown = if matches!(launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { zero };
         Self {
@@ -107,142 +99,102 @@ impl Margin {
     }
 }
 
-/// Of the time of flight, the speed and gravity.
+/// Of the time of flight, the speed and gravity, and the range of times that was searched.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-fn of_flight(toss: &CoinToss, outcome: f64) -> Result<[Option<f64>; 3], SolveError> {
-    let motion = CoinMotion::new(toss);
+fn of_flight(toss: &Toss, outcome: Outcome) -> Result<([Option<f64>; 3], Option<[f64; 2]>), SolveError> {
     let flight = toss.launch.time_of_flight();
-    let (phase, _) = motion.phases(flight)?;
-    if motion.precession_rate() == 0.0 {
-        return Ok([None; 3]);
+    let turn_rate = toss.launch.turn_rate();
+    if turn_rate == 0.0 {
+        return Ok(([None; 3], toss.coin().is_none().then_some([f64::INFINITY; 2])));
     }
-    let Some([later, earlier]) = time::flips(toss, phase) else { return Ok([None; 3]) };
-    let time_of = |phase: f64| Some(motion.time_of(phase)).filter(|change| change.is_finite());
-    let later = time_of(later).filter(|_| later < LARGEST_PHASE - phase.hi());
-    let earlier = time_of(earlier).filter(|_| {
-        // Next to the launch, the phase does not tell whether the flip is after it. It is if the face then was the other.
-        let [.., at_launch] = toss.launch.attitude().exact_vertical();
-        let from_launch = earlier + phase.hi();
-        let is_near = from_launch.abs() <= 1e-12 * phase.hi();
-        if is_near { at_launch.hi() * outcome < 0.0 } else { from_launch.is_sign_positive() }
+    let found = match toss.coin() {
+        Some(coin) => time::flips(&coin, outcome)?.map(|flip| (flip, f64::INFINITY)),
+        None => {
+            let line = Line::new(toss, Input::Time);
+            let limits = [(-1.0, flight.seconds()), (1.0, TURN_RANGE / turn_rate)];
+            limits.map(|(sense, limit)| first(&line, outcome, sense, limit))
+        }
+    };
+    let thrown = |change: f64| flight::speed_and_gravity(flight, change);
+    let by = |size: &dyn Fn(f64) -> Option<f64>| nearest(found, flight.seconds(), size);
+    let changes = [by(&Some), by(&|change| thrown(change)[0]), by(&|change| thrown(change)[1])];
+    Ok((changes, toss.coin().is_none().then_some(found.map(|(_, range)| range))))
+}
+
+/// The first flip in the direction of `sense` up to `limit`, and how far the search went.
+fn first(line: &Line<'_>, outcome: Outcome, sense: f64, limit: f64) -> Found {
+    match Flips::new(line, outcome, sense, limit, 0.0).next() {
+        End::Flip(distance) => (Some(sense * distance), distance),
+        End::Limit => (None, limit),
+        End::Spent(distance) => (None, distance),
+    }
+}
+
+/// The `size` of the nearer flip in time, unless a search ended before it could have found one as near. An earlier flip is at
+/// most `whole` earlier, the time of flight.
+fn nearest([earlier, later]: [Found; 2], whole: f64, size: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
+    let changes = [earlier.0, later.0].map(|flip| flip.and_then(size));
+    let found = changes.into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let covers = |at: f64| size(at).is_none_or(|end| end.abs() >= found.abs());
+    let has_all_earlier = earlier.0.is_none() && earlier.1 >= whole;
+    ((has_all_earlier || covers(-earlier.1)) && covers(later.1)).then_some(found)
+}
+
+/// Of a rate, and the largest change that was searched: the whole range if there is a flip.
+fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> Found {
+    let line = Line::new(toss, Input::Rate(axis));
+    let range = rate_range(&toss.launch);
+    let limits = [1.0, -1.0].map(|sense| toss.coin().map_or(range, |toss| limit(&toss, axis, sense).min(range)));
+    let searches = [(1.0, limits[0]), (-1.0, limits[1])].map(|(sense, limit)| {
+        Flips::new(&line, outcome, sense, limit.times_power_of_two(-line.change_exponent()), 0.0)
     });
-    let thrown =
-        [later, earlier].map(|change| change.map_or([None; 2], |change| flight::speed_and_gravity(flight, change)));
-    let [later_thrown, earlier_thrown] = thrown;
-    Ok([
-        smaller(later, earlier),
-        smaller(later_thrown[0], earlier_thrown[0]),
-        smaller(later_thrown[1], earlier_thrown[1]),
-    ])
-}
-
-/// The smaller of two changes.
-fn smaller(a: Option<f64>, b: Option<f64>) -> Option<f64> {
-    [a, b].into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))
-}
-
-/// Of a rate, with the `turn` Φ of the landing; and the largest change that was searched.
-fn of_rate(toss: &CoinToss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
-    let flight = toss.launch.time_of_flight();
-    let (time, range) = (ExactTime::from(flight), rate_range(&toss.launch));
-    let ratio = ratio(toss, axis);
-    if ratio.hi() == 0.0 || !flight.is_positive() {
-        return (None, range);
-    }
-    let line = Line::of_rate(toss, axis, turn);
-    let walk = |sense: f64| Walk::new(&line, outcome, sense, limit(toss, axis, &line, sense), MOST_WORK);
-    let rate_of =
-        |turn: f64| (DoubleDouble::from(turn) / time.mantissa() / ratio).times_power_of_two(-time.exponent()).hi();
-    match Walk::nearer([walk(1.0), walk(-1.0)]) {
-        Ok(change) => (change.map(rate_of).filter(|change| change.is_finite()), range),
-        Err(distance) => (None, rate_of(distance)),
+    let rate = |change: f64| change.times_power_of_two(line.change_exponent());
+    match Flips::nearer(searches) {
+        Ok(change) => (change.map(rate), range),
+        Err(distance) => (None, rate(distance)),
     }
 }
 
-/// The change of Φ with a change of a rate, in units of the time of flight.
-fn ratio(toss: &CoinToss, axis: usize) -> DoubleDouble {
-    if axis == 2 { toss.coin.exact_inertia_ratio() } else { 1.0.into() }
+/// The largest change of a coin's rate in the direction of `sense`, after which neither phase is too large (rad/s).
+fn limit(toss: &CoinToss, axis: usize, sense: f64) -> f64 {
+    let (rate, ratio, time) = (toss.launch.rate(), toss.coin.inertia_ratio(), toss.launch.flight_time());
+    // The turns Φ = L T (rad), without and with the one that the rate makes.
+    let turn = [rate.x, rate.y, ratio * rate.z].map(|part| part * time);
+    let across = turn[(axis + 1) % 3].hypot(turn[(axis + 2) % 3]);
+    let by_precession = ((LARGEST_PHASE - across) * (LARGEST_PHASE + across)).max(0.0).sqrt();
+    let (ratio, by_spin) =
+        if axis == 2 { (ratio, LARGEST_PHASE * ratio / (ratio - 1.0).abs()) } else { (1.0, f64::INFINITY) };
+    (by_precession.min(by_spin) - sense * turn[axis]) / time / ratio
 }
 
-/// The largest change of Φ (rad) that is searched along a rate: neither phase gets too large.
-fn limit(toss: &CoinToss, axis: usize, line: &Line<'_>, sense: f64) -> f64 {
-    let (ratio, across) = (ratio(toss, axis).hi(), line.across());
-    let phase_limit = ((LARGEST_PHASE - across) * (LARGEST_PHASE + across)).max(0.0).sqrt();
-    // Of Φz, by which the phase of the spin stays below its limit.
-    let spin_limit = if axis == 2 { LARGEST_PHASE * ratio / (ratio - 1.0).abs() } else { LARGEST_PHASE };
-    let reach = rate_range(&toss.launch) * ratio * toss.launch.flight_time();
-    reach.min(phase_limit.min(spin_limit) - sense * line.along().hi())
-}
-
-/// Of the tilt.
-fn of_tilt(toss: &CoinToss, turn: [DoubleDouble; 3]) -> Option<f64> {
-    let by_line = (0..2).map(|stage| line::tilted_heights(toss, turn, stage));
-    let change = by_line.filter_map(tilt_to_flip).next().unwrap_or_else(|| tilt_to_0(&digits::tilted_heights(toss)));
+/// Of the tilt, by cos θ and what it becomes after a quarter of a turn of the launch about the lab's x axis.
+fn of_tilt(toss: &Toss) -> Option<f64> {
+    let lines = [Line::new(toss, Input::Time), Line::quarter_turned(toss)];
+    let heights = |stage: usize| lines.each_ref().map(|line| line.enclosure(stage, 0.0, 0.0));
+    let stages = 1..lines[0].work().len();
+    let last = stages.end - 1;
+    let change = stages.map(heights).find_map(tilt_to_flip).unwrap_or_else(|| tilt_to_0(&heights(last)));
     Some(change).filter(|change| change.is_finite())
 }
 
 /// The change δ of the tilt for which cos θ = f cos δ + f(90°) sin δ is 0.
-fn tilt_to_0([height, turned]: &[Height; 2]) -> f64 {
-    -(height.value / turned.value).atan()
+fn tilt_to_0([height, turned]: &[Enclosure; 2]) -> f64 {
+    // Without the sign of a 0.
+    -(height.middle() / (turned.middle() + 0.0)).atan()
 }
 
 /// That change if the errors leave it right to a relative 4e-13.
-fn tilt_to_flip(heights: [Height; 2]) -> Option<f64> {
+fn tilt_to_flip(heights: [Enclosure; 2]) -> Option<f64> {
     let change = tilt_to_0(&heights);
-    let [height, turned] = heights;
-    let size = height.value.abs().max(turned.value.abs());
-    (height.error + turned.error < 4e-13 * size * change.abs()).then_some(change)
+    let [[height, error], [turned, turned_error]] = heights.map(|height| [height.middle().abs(), height.error()]);
+    let size = height.hypot(turned);
+    let off = turned / size * (error / size) + height / size * (turned_error / size);
+    (off < 4e-13 * change.abs()).then_some(change)
 }
 
-/// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if it was not thrown
-/// and caught at the same height. A motion of many turns has as many intervals.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
-pub fn level_speeds_of_heads(
-    toss: &CoinToss,
-    slowest: f64,
-) -> Result<Option<impl Iterator<Item = [f64; 2]> + use<>>, SolveError> {
-    let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return Ok(None) };
-    let motion = CoinMotion::new(toss);
-    let fastest_phase = motion.phases(toss.launch.time_of_flight())?.0.hi();
-    let slowest_phase = motion.phases(TimeOfFlight::Ballistic { speed: slowest, gravity })?.0.hi();
-    // Without a precession every speed has the outcome of the launch, and a phase of 0 no length.
-    let still = fastest_phase == slowest_phase;
-    let span = if still { [slowest, speed] } else { [slowest_phase, fastest_phase] };
-    let heads = if still { HeadsPhases::constant(motion.cos_tilt(0.0)?) } else { motion.heads() };
-    let speed_of = move |phase: f64| {
-        if still { phase } else { slowest + (phase - span[0]) / (span[1] - span[0]) * (speed - slowest) }
-    };
-    Ok(Some(heads.intervals(span[0], span[1]).map(move |interval| interval.map(speed_of))))
-}
-
-/// As [`level_speeds_of_heads`], for a landing at any height; `None` if the time of flight was given without a speed.
-///
-/// A landing at h below the launch has the time T = (v0 + √(v0² + 2 g h))/g, which a throw at u = g T/2 has without the
-/// drop; back from it, v0 = u - g h/(2 u).
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
-pub(crate) fn thrown_speeds_of_heads(toss: &CoinToss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
-    let TimeOfFlight::BallisticTo { speed, gravity, drop } = toss.launch.time_of_flight() else {
-        return Ok(level_speeds_of_heads(toss, slowest)?.map(Iterator::collect));
-    };
-    let level = |speed: f64| 0.5 * gravity * TimeOfFlight::BallisticTo { speed, gravity, drop }.seconds();
-    let (from, to) = (level(slowest), level(speed));
-    let as_level = TimeOfFlight::Ballistic { speed: to, gravity };
-    // The time of flight is that of the valid launch to rounding, so that only the largest of all f64 can be too large.
-    let too_large = |_| SolveError::PhaseTooLarge { phase: f64::MAX };
-    let level_toss = CoinToss { launch: toss.launch.with_time_of_flight(as_level).map_err(too_large)?, ..*toss };
-    let speed_of = |level: f64| match level {
-        end if end <= from => slowest,
-        end if end >= to => speed,
-        level => (level - 0.5 * gravity * drop / level).clamp(slowest, speed),
-    };
-    Ok(level_speeds_of_heads(&level_toss, from)?.map(|heads| heads.map(|interval| interval.map(speed_of)).collect()))
-}
-
+#[cfg(test)]
+mod body_tests;
 #[cfg(test)]
 mod tests;

@@ -189,11 +189,6 @@ impl CoinMotion {
     }
 }
 
-/// ŝ, the direction of S at the launch of a toss (BF); ẑ without a precession.
-pub(crate) fn momentum_direction(toss: &CoinToss) -> [DoubleDouble; 3] {
-    unit_momentum(scaled_rate(toss).0, toss.coin.exact_inertia_ratio()).0
-}
-
 /// The rate of a toss (BF) as it was given, in a unit near its largest component: the second number (rad/s), a power of two.
 fn scaled_rate(toss: &CoinToss) -> ([DoubleDouble; 3], f64) {
     let scale = power_of_two_scale(toss.launch.rate().amax());

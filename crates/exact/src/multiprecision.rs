@@ -89,19 +89,6 @@ pub(crate) fn cos_tilt(toss: &CoinToss, digits: usize) -> WideBall {
     cos_tilt_in(toss, &time, vertical, right_to_roundings(toss.coin.inertia_ratio_in_digits(digits), digits))
 }
 
-/// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
-pub(crate) fn momentum(toss: &CoinToss, digits: usize) -> [Big; 3] {
-    let big = |value: f64| exactly(value).with_precision(digits).value();
-    let (rate, unit) = toss.launch.given_rate();
-    let unit = unit.in_digits(digits);
-    [big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z)].map(|part| part * &unit)
-}
-
-/// T in `digits` binary digits (s).
-pub(crate) fn flight_time(toss: &CoinToss, digits: usize) -> Big {
-    toss.launch.time_of_flight().in_digits(digits)
-}
-
 #[cfg(test)]
 mod tests {
     use dynamics::{Angle, Attitude, Coin, Launch, Quantity, TimeOfFlight, Unit};

@@ -19,12 +19,11 @@ mod certified;
 mod climb;
 mod doubling;
 mod given;
-mod margin;
+pub(crate) mod line;
 mod quaternion;
 mod sensitivity;
 mod special;
 mod tensor;
-mod walk;
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
@@ -35,7 +34,6 @@ use numerics::{DoubleDouble, Elementary};
 pub use angles::RigidAngles;
 pub use certified::certify;
 pub(crate) use certified::{cos_tilt_with_error, landed};
-pub use margin::{margin, speeds_of_heads};
 pub use special::Regime;
 
 use crate::motion::CoinMotion;
@@ -120,7 +118,7 @@ fn turned_state(toss: &Toss, (turn, rate): TurnedTo) -> State {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
-fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, SolveError> {
+pub(crate) fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, SolveError> {
     let rate = toss.launch.rate();
     let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
     let size = (rate / power_of_two_scale(rate.amax())).norm();

@@ -129,13 +129,75 @@ pub(crate) fn cos_tilt_in<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N
         return m_z;
     }
     let [x, y, z] = scaled(&rate, time);
-    let momentum = [x.clone(), y.clone(), k * z];
-    let across = x.clone() * x + y.clone() * y;
-    let squared = across.clone() + momentum[2].clone() * momentum[2].clone();
+    let [height, squared] = height_and_scale(&[x, y, k * z], time, vertical);
+    height / squared
+}
+
+/// |L|² cos θ, and |L|², in any kind of number, from the momentum L, the time in the inverse of its unit, and the vertical
+/// (BF) at launch.
+fn height_and_scale<N: Elementary>([x, y, z]: &[N; 3], time: &N, vertical: [N; 3]) -> [N; 2] {
+    let across = x.clone() * x.clone() + y.clone() * y.clone();
+    let squared = across.clone() + z.clone() * z.clone();
     let size = squared.sqrt();
     let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
-    let [mean, cosine, sine] = terms(vertical, momentum, across);
-    (mean + cosine * cos + sine * size * sin) / squared
+    let [mean, cosine, sine] = terms(vertical, [x.clone(), y.clone(), z.clone()], across);
+    [mean + cosine * cos + sine * size * sin, squared]
+}
+
+/// cos θ times a positive number, as [`cos_tilt_in`]; also over an interval in which L vanishes. There it is by power series:
+/// with Φ = L T, φ = |Φ|,
+///
+/// ```text
+/// cos θ = mz (1 - φ² V) + S (mx Φy - my Φx) + V Φz (m·Φ)        S = sin φ/φ, V = (1 - cos φ)/φ²
+/// ```
+pub(crate) fn scaled_cos_tilt<N: Elementary>(momentum: &[N; 3], time: &N, vertical: [N; 3]) -> N {
+    let [x, y, z] = momentum.each_ref().map(|part| part.clone() * time.clone());
+    let squared = x.clone() * x.clone() + y.clone() * y.clone() + z.clone() * z.clone();
+    let Some([s, v]) = small_phase(&squared) else {
+        let [height, _] = height_and_scale(momentum, time, vertical);
+        return height;
+    };
+    let [m_x, m_y, m_z] = vertical;
+    let across = m_x.clone() * y.clone() - m_y.clone() * x.clone();
+    let level = m_x * x + m_y * y + m_z.clone() * z.clone();
+    m_z.clone() + s * across + v * (z * level - m_z * squared)
+}
+
+/// S and V of a φ² of at most 4; `None` if it may be larger.
+///
+/// From the term of φ²ᵏ on, they differ from their series by at most 2 φ²ᵏ/(2k + 1)!.
+fn small_phase<N: Elementary>(squared: &N) -> Option<[N; 2]> {
+    let most = Some(squared.bound()).filter(|most| *most <= 4.0)?;
+    // -log2 of what is left out.
+    let (mut count, mut left) = (0.0_f64, -1.0);
+    let of_square = f64::log2(most).max(-1000.0);
+    while left < f64::from(squared.digits()) + 10.0 {
+        count += 1.0;
+        left += (2.0 * count * (2.0 * count + 1.0)).log2() - of_square;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "at most some thousand")]
+    let rest = squared.like(0.0).widened(1.0).times_power_of_two(-left.floor().min(1e6) as i32);
+    let sum = |first: f64| {
+        let mut sum = squared.like(1.0);
+        let mut order = count - 1.0;
+        while order > 0.0 {
+            let divisor = (2.0 * order + first - 1.0) * (2.0 * order + first);
+            sum = squared.like(1.0) - squared.clone() * sum / squared.like(divisor);
+            order -= 1.0;
+        }
+        sum / squared.like(first) + rest.clone()
+    };
+    Some([sum(1.0), sum(2.0)])
+}
+
+/// The sign of cos θ if it is the same at every phase: the cone of n does not reach the horizontal, where A² > B² + C², which
+/// is (m·L)² > Lx² + Ly².
+pub(crate) fn sign_at_any_phase<N: Elementary>([x, y, z]: &[N; 3], vertical: &[N; 3]) -> Option<f64> {
+    let [m_x, m_y, m_z] = vertical.clone();
+    let level = m_x * x.clone() + m_y * y.clone() + m_z * z.clone();
+    let beyond = level.clone() * level.clone() - (x.clone() * x.clone() + y.clone() * y.clone());
+    let known_sign = |number: &N| if number.has_known_sign() { number.sign() } else { 0.0 };
+    Some(known_sign(&level) * known_sign(z)).filter(|sign| *sign != 0.0 && known_sign(&beyond) > 0.0)
 }
 
 #[cfg(test)]
@@ -154,6 +216,81 @@ mod tests {
             assert_eq!((terms.phases(1.0)[0], terms.heads().half_width), (0.0, half_width), "{rate:?} {tilt}");
             assert!((terms.height(0.0) / terms.size - tilt.cos()).abs() < 1e-15);
         }
+    }
+
+    /// Over intervals of a rate, next to a turn of 0, where the series is taken, and far from it.
+    #[test]
+    fn cos_tilt_over_an_interval_contains_those_of_its_numbers() {
+        use numerics::{Ball, DoubleDouble, TaylorModel};
+        let vertical = [0.36, -0.48, 0.8];
+        for ([x, y, z], axis) in [([0.1, -0.2, 0.3], 0), ([0.0; 3], 1), ([0.0; 3], 2), ([7.0, -2.0, 30.0], 2)] {
+            for (middle, width) in [(0.0, 1e-9), (0.05, 0.3), (-0.3, 0.5), (0.4, 0.01)] {
+                let at = |change: f64| {
+                    let number = |value: f64| Ball::new(DoubleDouble::from(value), 0.0);
+                    let mut momentum = [x, y, z].map(number);
+                    momentum[axis] =
+                        momentum[axis] + number(middle) + Ball::new(DoubleDouble::product(width, change), 0.0);
+                    scaled_cos_tilt(&momentum, &number(1.0), vertical.map(number))
+                };
+                let number = |value: f64| TaylorModel::constant(Ball::new(value, 0.0));
+                let mut momentum = [x, y, z].map(number);
+                let moved = TaylorModel::variable(Ball::new(middle, 0.0), Ball::new(width, 0.0));
+                momentum[axis] = momentum[axis].clone() + moved;
+                let (polynomial, error) = scaled_cos_tilt(&momentum, &number(1.0), vertical.map(number)).polynomial();
+                // Of a multiple of cos θ.
+                let size = 1.0 + x * x + y * y + z * z;
+                assert!(error < (1e-13 + 40.0 * width.powi(5)) * size, "{x} {axis} {middle} {width}: {error:e}");
+                for step in -10..=10 {
+                    let change = f64::from(step) / 10.0;
+                    let value = polynomial.iter().rev().fold(0.0, |sum, coefficient| sum * change + coefficient);
+                    let off = (at(change).midpoint().hi() - value).abs();
+                    assert!(
+                        off <= error + 1e-13 * value.abs(),
+                        "{x} {axis} {middle} {width} {change}: {off:e} {error:e}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_phase_has_the_sine_and_cosine_of_its_size() {
+        use numerics::{Ball, DoubleDouble};
+        for phase in [1e-30, 1e-3, 0.7, 1.99] {
+            let number = DoubleDouble::product(phase, phase);
+            let [s, v] = small_phase(&Ball::new(number, 0.0)).unwrap();
+            let (sin, cos) = DoubleDouble::from(phase).exact_sin_cos();
+            let sine = s * Ball::new(phase.into(), 0.0) - Ball::new(sin, 0.0);
+            let cosine = Ball::new(DoubleDouble::from(1.0) - cos, 0.0) - v * Ball::new(number, 0.0);
+            for off in [sine, cosine] {
+                assert!(off.midpoint().hi().abs() < 1e-29 && off.radius() < 1e-28, "{phase}: {off:?}");
+            }
+        }
+        assert_eq!(small_phase(&Ball::new(4.0, 0.1)), None);
+    }
+
+    /// Against the least and the greatest cos θ over a turn, A ± √(B² + C²).
+    #[test]
+    fn a_sign_at_any_phase_is_that_of_a_cone_above_or_below_the_horizontal() {
+        let mut counts = [0; 3];
+        for index in 1..2000 {
+            let part = |root: f64| 2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0;
+            let [momentum, vertical] = [[2.0, 3.0, 5.0], [7.0, 11.0, 13.0]].map(|roots| roots.map(part));
+            let norm = vertical.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let vertical = vertical.map(|part| part / norm);
+            let ball = |numbers: [f64; 3]| numbers.map(|part| numerics::Ball::new(part, 1e-9));
+            let [mean, cosine, sine] = {
+                let [x, y, z] = momentum;
+                let [mean, cosine, sine] = terms(vertical, momentum, x * x + y * y);
+                [mean, cosine, sine * (x * x + y * y + z * z).sqrt()]
+            };
+            let amplitude = cosine.hypot(sine);
+            let expected = if mean.abs() > amplitude { Some(mean.signum()) } else { None };
+            let found = sign_at_any_phase(&ball(momentum), &ball(vertical));
+            assert!(found == expected || (mean.abs() - amplitude).abs() < 1e-6, "{momentum:?} {vertical:?}: {found:?}");
+            counts[found.map_or(0, |sign| if sign > 0.0 { 1 } else { 2 })] += 1;
+        }
+        assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
     }
 
     #[test]

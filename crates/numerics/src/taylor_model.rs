@@ -37,6 +37,18 @@ impl<N: Elementary> TaylorModel<N> {
         self.0.value().clone().widened(self.change())
     }
 
+    /// A polynomial, and a bound of how far the function is from it for |x| ≤ 1. A coefficient that is rounded is so to half
+    /// an ulp.
+    pub fn polynomial(&self) -> ([f64; TERMS], f64) {
+        let mut polynomial = [0.0; TERMS];
+        let mut error = 0.0;
+        for (coefficient, (_, term)) in polynomial.iter_mut().zip(self.0.terms()) {
+            *coefficient = term.to_f64();
+            error += term.error() + f64::EPSILON * coefficient.abs() + f64::MIN_POSITIVE;
+        }
+        (polynomial, error * GROWN)
+    }
+
     /// How far the value can be from that at x = 0.
     fn change(&self) -> f64 {
         self.0.terms().skip(1).map(|(_, term)| term.bound()).sum::<f64>() * GROWN
@@ -266,6 +278,10 @@ mod tests {
                     sum += term.to_f64() * power;
                     error += term.error() * power.abs();
                 }
+                let (polynomial, bound) = model.polynomial();
+                let value = polynomial.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient);
+                assert!(error <= bound && bound < 40.0 * error.max(1e-16), "{width} {x}: {error:e} {bound:e}");
+                assert!((value - exact).abs() <= bound + 1e-15, "{width} {x}: {value} {exact} {bound:e}");
                 assert!((sum - exact).abs() <= error + 1e-15, "{width} {x}: {sum} {exact} {error:e}");
                 closest = closest.min(error / (sum - exact).abs());
             }

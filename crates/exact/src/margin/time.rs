@@ -12,19 +12,18 @@
 //! are the flips. There is none for D ≤ 0, and a touch at D = 0. What a difference can cancel is f, f', g and D: where their
 //! errors count, as next to an edge or a touch, they are found in more digits.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::iter::successors;
 
-use dynamics::CoinToss;
-use numerics::big::Big;
-use numerics::{DoubleDouble, Elementary};
+use dynamics::phase::LARGEST_PHASE;
+use dynamics::{CoinToss, Outcome, SolveError};
+use numerics::Elementary;
 
-use super::line::{error_of_vertical, fine_error};
-use crate::motion::momentum_direction;
-use crate::multiprecision::{flight_time, momentum};
+use crate::given::{self, Vertical, inertia_ratio, right_to_roundings, scaled};
+use crate::motion::CoinMotion;
 use crate::tilt_terms::terms;
 
-/// Relative error of a change of the phase.
+/// Relative error of half a change of the phase.
 const RESOLUTION: f64 = 2e-13;
 
 /// Digits to begin with, and after which a motion counts as one that touches the edge. Of components that differ by 2^2100,
@@ -32,144 +31,108 @@ const RESOLUTION: f64 = 2e-13;
 const DIGITS: usize = 192;
 const MOST_DIGITS: usize = 12_288;
 
-/// Of these digits at most 80 are lost: the phase is up to 2^53, and there are some thirty operations.
-const LOST_DIGITS: usize = 80;
-
-/// The changes of the `phase` of the landing (rad) to the next flip and to the last one before, if the motion flips at all.
-pub(super) fn flips(toss: &CoinToss, phase: DoubleDouble) -> Option<[f64; 2]> {
-    let halves = in_double_double(toss, phase).unwrap_or_else(|| in_digits(toss))?;
+/// The changes of the time of flight (s) to the last flip before the landing of a decided toss, and to the next after it.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub(super) fn flips(toss: &CoinToss, outcome: Outcome) -> Result<[Option<f64>; 2], SolveError> {
+    let motion = CoinMotion::new(toss);
+    let (phase, _) = motion.phases(toss.launch.time_of_flight())?;
+    if motion.precession_rate() == 0.0 {
+        return Ok([None; 2]);
+    }
+    let Some(halves) = in_double_double(toss).unwrap_or_else(|| in_digits(toss)) else { return Ok([None; 2]) };
     // Each flip is one of the turn after the landing, and one of the turn before.
     let changes = halves.map(|half| 2.0 * half);
     let later = changes.map(|change| if change.is_sign_positive() { change } else { change + TAU });
     let earlier = changes.map(|change| if change.is_sign_positive() { change - TAU } else { change });
-    Some([later[0].min(later[1]), earlier[0].max(earlier[1])])
+    let (later, earlier) = (later[0].min(later[1]), earlier[0].max(earlier[1]));
+    // Next to the launch, the phase does not tell whether the flip is after it. It is if the face then was the other.
+    let [.., at_launch] = toss.launch.attitude().exact_vertical();
+    let from_launch = earlier + phase.hi();
+    let is_near = from_launch.abs() <= 1e-12 * phase.hi();
+    let is_other = if at_launch.hi() > 0.0 { outcome == Outcome::Tails } else { outcome == Outcome::Heads };
+    let is_after = if is_near { is_other && at_launch.hi() != 0.0 } else { from_launch.is_sign_positive() };
+    let is_in_range = later < LARGEST_PHASE - phase.hi();
+    let time_of = |(phase, exists)| Some(motion.time_of(phase)).filter(|change| exists && change.is_finite());
+    Ok([(earlier, is_after), (later, is_in_range)].map(time_of))
 }
 
-/// h/2 of both flips (rad), from -π/2 to π/2.
-fn halves<N: Elementary>([f, slope, g, root]: [&N; 4]) -> [N; 2] {
-    let sum = |a: &N, b: &N| a.clone() + b.clone();
-    let q = if slope.sign() < 0.0 { sum(&-slope.clone(), root) } else { -sum(slope, root) };
-    [q.clone() / g.clone(), f.clone() / q]
+/// h/2 of both flips (rad), from -π/2 to π/2; none if there are none, `None` if double-double has too few digits.
+fn in_double_double(toss: &CoinToss) -> Option<Option<[f64; 2]>> {
+    let (time, _) = given::in_double_double(&toss.launch)?;
+    let vertical = Vertical::Own.in_double_double(&toss.launch.attitude());
+    halves(toss, &time, vertical, inertia_ratio(&toss.coin))
 }
 
-/// h/2 of both flips, none if there are none; `None` if more digits are needed.
-fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64; 2]>> {
-    let [term_error, error, g_error] = errors_of_terms(phase.hi(), error_of_vertical(toss));
-    let direction = momentum_direction(toss);
-    let [x, y, _] = direction;
-    let [mean, cosine, sine] = terms(toss.launch.attitude().exact_vertical(), direction, x * x + y * y);
-    let (sin, cos) = phase.exact_sin_cos();
-    let (f, slope) = (mean + cosine * cos + sine * sin, sine * cos - cosine * sin);
-    let g = mean + mean - f;
-    let discriminant = cosine * cosine + sine * sine - mean * mean;
-    let d_error = error_of_discriminant([mean, cosine, sine].map(DoubleDouble::hi), term_error);
-    if discriminant.hi() < -d_error {
-        return Some(None);
-    }
-    if discriminant.hi() <= 4.0 * d_error {
-        return None;
-    }
-    let root = discriminant.sqrt();
-    let [by_g, by_q] = halves([&f, &slope, &g, &root]).map(|tangent| tangent.hi().atan());
-    let values = [f, slope, g, root].map(DoubleDouble::hi);
-    let [off_g, off_q] = errors_of_halves(values, [error, g_error, d_error]);
-    let is_right = off_g < RESOLUTION * by_g.abs() && off_q < RESOLUTION;
-    is_right.then_some(Some([by_g, by_q]))
-}
-
-/// Bounds of the errors of A, B and C, of f and f', and of g at a `phase` (rad), with that `of_vertical`.
-fn errors_of_terms(phase: f64, of_vertical: f64) -> [f64; 3] {
-    const OF_TERMS: f64 = 2.465_190_328_815_662e-30; // 200 u²
-    let (of_terms, of_values) = (OF_TERMS + of_vertical, fine_error(phase) + of_vertical);
-    [of_terms, of_values, of_values + 2.0 * of_terms]
-}
-
-/// Bound of the error of D if A, B and C are off by `error`.
-fn error_of_discriminant(terms: [f64; 3], error: f64) -> f64 {
-    4.0 * terms.map(|term| term.abs() + error).iter().sum::<f64>() * error
-}
-
-/// Bounds of the error (rad) of the first of both [`halves`], and of the relative one of the second, if f and f' are off by
-/// `error`, g by `g_error` and D by `d_error` < D/4.
-fn errors_of_halves([f, slope, g, root]: [f64; 4], [error, g_error, d_error]: [f64; 3]) -> [f64; 2] {
-    let (q_size, q_error) = (slope.abs() + root, error + d_error / root);
-    let (f_size, g_size) = (f.abs(), g.abs());
-    let off_g = (q_error * g_size + g_error * q_size) / (q_size * q_size + g_size * g_size);
-    [off_g, error / f_size + q_error / q_size]
-}
-
-/// h/2 of both flips in as many digits as it takes.
+/// The same in as many digits as it takes.
 fn in_digits(toss: &CoinToss) -> Option<[f64; 2]> {
     let mut tries = successors(Some(DIGITS), |digits| Some(2 * digits)).take_while(|digits| *digits <= MOST_DIGITS);
-    tries.find_map(|digits| in_so_many_digits(toss, digits)).flatten()
+    let in_so_many = |digits| {
+        let (time, vertical) = given::in_digits(&toss.launch, digits);
+        halves(toss, &time, vertical, right_to_roundings(toss.coin.inertia_ratio_in_digits(digits), digits))
+    };
+    tries.find_map(in_so_many).flatten()
 }
 
-/// As [`in_double_double`], in `digits` binary digits.
-fn in_so_many_digits(toss: &CoinToss, digits: usize) -> Option<Option<[f64; 2]>> {
-    let round = |value: Big| value.with_precision(digits).value();
-    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
-    let [x, y, z] = momentum(toss, digits);
-    let across = &x * &x + &y * &y;
-    let squared = &across + &z * &z;
-    // Without the factor |m| |L|² of all terms, of which each is then right to 2^(10 - digits).
-    let size = &squared * round(norm);
-    let bound = Big::ONE >> (digits - LOST_DIGITS - 60).cast_signed();
-    let is_clear = |value: &Big, of: &Big| value.magnitude() > of * &bound;
-    let rate = squared.sqrt();
-    let [mean, cosine, sine] = terms(vertical.map(round), [x, y, z], across);
-    let discriminant = &cosine * &cosine + &sine * &sine * &squared - &mean * &mean;
+/// h/2 of both flips, none if there are none, from the time in the unit of [`scaled`] rates, the vertical (BF) at launch, and
+/// k; `None` if these have too few digits.
+fn halves<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N; 3], ratio: N) -> Option<Option<[f64; 2]>> {
+    let square = |number: &N| number.clone() * number.clone();
+    let [x, y, z] = scaled(&toss.launch.given_rate().0, time);
+    let momentum = [x, y, ratio * z];
+    let across = square(&momentum[0]) + square(&momentum[1]);
+    let squared = across.clone() + square(&momentum[2]);
+    let [mean, cosine, sine] = terms(vertical, momentum, across);
+    let discriminant = square(&cosine) + square(&sine) * squared.clone() - square(&mean);
     // At a touch it is 0 in any number of digits, so that they end here, before the sine and cosine, which take longer.
-    if !is_clear(&discriminant, &(&size * &size)) {
+    if discriminant.sign() == 0.0 || !discriminant.has_known_sign() {
         return None;
     }
-    if discriminant < Big::ZERO {
+    if discriminant.sign() < 0.0 {
         return Some(None);
     }
-    let (sin, cos) = (&rate * flight_time(toss, digits)).sin_cos();
-    let sine = sine * rate;
-    let (f, slope) = (&mean + &cosine * &cos + &sine * &sin, &sine * &cos - &cosine * &sin);
-    if !is_clear(&f, &size) {
-        return None;
-    }
-    let g = &mean + &mean - &f;
+    let size = squared.sqrt();
+    let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
+    let sine = sine * size;
+    let f = mean.clone() + cosine.clone() * cos.clone() + sine.clone() * sin.clone();
+    let slope = sine * cos - cosine * sin;
     let root = discriminant.sqrt();
-    // An infinite tangent is that of half a turn.
-    let is_level = g == Big::ZERO;
-    let divisor = if is_level { g.like(1.0) } else { g };
-    let [by_g, by_q] = halves([&f, &slope, &divisor, &root]).map(|tangent| tangent.to_f64().value().atan());
-    Some(Some([if is_level { 0.5 * PI } else { by_g }, by_q]))
+    let g = mean.clone() + mean - f.clone();
+    let q = if slope.sign() < 0.0 { root - slope } else { -(root + slope) };
+    // The tangent tells h/2 but for half turns.
+    let angle = |y: N, x: N| if x.sign() < 0.0 { (-y).atan2(&-x) } else { y.atan2(&x) };
+    let halves = [angle(q.clone(), g), angle(f, q)];
+    let is_right = |half: &N| half.error() < RESOLUTION * half.to_f64().abs();
+    halves.iter().all(is_right).then(|| Some(halves.each_ref().map(N::to_f64)))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use dynamics::{Coin, Launch, TimeOfFlight};
 
     use super::*;
-    use crate::motion::CoinMotion;
 
     /// A toss at a phase `from_flip` rad after a flip, with k ωz = (1 + `from_touch`) |(ωx, ωy)|: from horizontal its cone
     /// touches the edge at 0. From another tilt it is far from a touch.
-    fn toss(tilt: f64, from_touch: f64, from_flip: f64) -> Option<(CoinToss, DoubleDouble)> {
+    fn toss(tilt: f64, from_touch: f64, from_flip: f64) -> Option<CoinToss> {
         let rate = [3.0, -4.0, 5.0 * (1.0 + from_touch) / 1.3];
         let at = |time: f64| {
             let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
             CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
         };
-        let phase = |toss: &CoinToss| {
-            let [x, y, z] = super::super::line::turn(toss);
-            (x * x + y * y + z * z).sqrt()
-        };
         let start = at(2.0);
         let [_, earlier] =
             in_digits(&start)?.map(|half| 2.0 * half).map(|change| if change > 0.0 { change - TAU } else { change });
         let rate = CoinMotion::new(&start).phase(start.launch.time_of_flight()).unwrap() / 2.0;
-        let near = at(2.0 + (earlier + from_flip) / rate);
-        Some((near, phase(&near)))
+        Some(at(2.0 + (earlier + from_flip) / rate))
     }
 
     /// Compares flips in double-double with those in more digits; whether they were found.
-    fn is_found(toss: &CoinToss, phase: DoubleDouble) -> bool {
-        let Some(halves) = in_double_double(toss, phase) else { return false };
+    fn is_found(toss: &CoinToss) -> bool {
+        let Some(halves) = in_double_double(toss) else { return false };
         let exact = in_digits(toss).expect("flips");
         for (half, exact) in halves.expect("flips").into_iter().zip(exact) {
             assert!((half - exact).abs() <= RESOLUTION * exact.abs(), "{toss:?}: {half:e} {exact:e}");
@@ -180,12 +143,12 @@ mod tests {
     #[test]
     fn flips_in_double_double_are_those_of_more_digits_and_all_but_the_nearest_are_found_so() {
         let (mut found, mut open) = (0, 0);
-        for (tilt, least) in [(0.0, 1e-13), (0.7, 1e-6), (-2.0, 1e-6)] {
+        for tilt in [0.0, 0.7, -2.0] {
             for from_touch in [-0.5, -0.1, -1e-3, -1e-6, -1e-9, -1e-12, -1e-15, 1e-15, 1e-3, 0.5] {
                 for from_flip in [PI, 1.0, 0.1, -0.01, 1e-4, -1e-6, 1e-9, -1e-12, 1e-15] {
-                    let Some((toss, phase)) = toss(tilt, from_touch, from_flip) else { continue };
-                    let is_far = f64::abs(from_flip) >= 10.0 * least && (f64::abs(from_touch) >= 1e-4 || tilt != 0.0);
-                    let is_found = is_found(&toss, phase);
+                    let Some(toss) = toss(tilt, from_touch, from_flip) else { continue };
+                    let is_far = f64::abs(from_flip) >= 1e-12 && (f64::abs(from_touch) >= 1e-4 || tilt != 0.0);
+                    let is_found = is_found(&toss);
                     assert!(is_found || !is_far, "{tilt} {from_touch} {from_flip}");
                     found += u32::from(is_found);
                     open += u32::from(!is_found);
@@ -195,7 +158,7 @@ mod tests {
         assert!(found > 100 && open > 20, "{found} {open}");
     }
 
-    /// The vertical of a tilted coin has fewer digits, which count most where the cone just reaches the horizontal.
+    /// Where the cone just reaches the horizontal, few digits are left of the discriminant, and of the root half as many.
     #[test]
     fn flips_of_tilted_coins_next_to_a_touch_are_those_of_more_digits() {
         let (mut found, mut open) = (0, 0);
@@ -210,17 +173,15 @@ mod tests {
             for power in 1..16 {
                 let tilt = flips - none.signum() * 10f64.powi(-power);
                 for from_flip in [1.0, -1e-2, 1e-3, -1e-4, 1e-5, 1e-6, -1e-7, 1e-9] {
-                    let Some((toss, phase)) = toss(tilt, from_touch, from_flip) else { continue };
-                    let is_found = is_found(&toss, phase);
-                    assert!(is_found || power > 3 || f64::abs(from_flip) < 1e-4, "{tilt} {from_flip}");
-                    // Of the root, half as many digits are left as the discriminant loses.
-                    assert!(!is_found || power < 10 || f64::abs(from_flip) > 1e-3, "{tilt} {from_flip}");
+                    let Some(toss) = toss(tilt, from_touch, from_flip) else { continue };
+                    let is_found = is_found(&toss);
+                    assert!(is_found || power > 8 || f64::abs(from_flip) < 1e-4, "{tilt} {from_flip}");
                     found += u32::from(is_found);
                     open += u32::from(!is_found);
                 }
             }
         }
-        assert!(found > 40 && open > 40, "{found} {open}");
+        assert!(found > 200 && open > 5, "{found} {open}");
     }
 
     #[test]
@@ -229,11 +190,10 @@ mod tests {
             let launch = Launch::new([3.0, -4.0, 2.5 * (1.0 + from_touch)], TimeOfFlight::Given(2.0)).unwrap();
             CoinToss { coin: Coin::from_moments(1.0, 2.0).unwrap(), launch }
         };
-        let phase = DoubleDouble::from(10.0);
         for from_touch in [0.5, 1e-3, 1e-9, 1e-12, 1e-15] {
-            assert_eq!((in_double_double(&toss(from_touch), phase), in_digits(&toss(from_touch))), (Some(None), None));
+            assert_eq!((in_double_double(&toss(from_touch)), in_digits(&toss(from_touch))), (Some(None), None));
         }
-        assert_eq!((in_double_double(&toss(0.0), phase), in_digits(&toss(0.0))), (None, None));
+        assert_eq!((in_double_double(&toss(0.0)), in_digits(&toss(0.0))), (None, None));
         assert!(in_digits(&toss(-1e-15)).is_some());
     }
 
@@ -276,64 +236,6 @@ mod tests {
         for phase in phases {
             let cos_tilt = CoinMotion::new(&toss).cos_tilt(phase / 5f64.sqrt()).unwrap();
             assert!(cos_tilt.abs() < 1e-15, "{phase}: {cos_tilt:e}");
-        }
-    }
-
-    #[test]
-    fn errors_of_the_terms_are_those_of_double_double_and_of_the_vertical() {
-        let unit = 2f64.powi(-106);
-        for (phase, vertical) in [(0.0, 0.0), (30.0, 0.0), (0.0, 5e4), (30.0, 1e3)] {
-            let found = errors_of_terms(phase, vertical * unit).map(|error| error / unit);
-            let of_values = 2000.0 + 100.0 * phase;
-            let expected = [200.0 + vertical, of_values + vertical, of_values + 400.0 + 3.0 * vertical];
-            assert!(found.iter().zip(expected).all(|(error, expected)| (error / expected - 1.0).abs() < 1e-15));
-        }
-    }
-
-    /// All errors at their worst, or one of them alone, change D and the flips by no more than the bounds and by a quarter.
-    #[test]
-    fn bounds_are_what_errors_of_the_terms_make_of_the_flips() {
-        let signs = || (0..16).map(|bits| [1, 2, 4, 8].map(|bit| if bits & bit == 0 { 1.0 } else { -1.0 }));
-        for (terms, error) in [([0.3, -0.5, 0.7], 1e-3), ([1e-3, 0.5, 1e-3], 0.01), ([0.2, 1e-4, 0.2], 0.1)] {
-            let change = |[a, b, c]: [f64; 3]| b * b + c * c - a * a;
-            let moved = signs().map(|s| change([0, 1, 2].map(|term: usize| terms[term] + s[term] * error)));
-            let [most, bound] = [
-                moved.fold(0.0, |most, d| f64::max(most, (d - change(terms)).abs())),
-                error_of_discriminant(terms, error),
-            ];
-            assert!(most <= bound && bound < 4.0 * most, "{terms:?}: {most:e} {bound:e}");
-        }
-        for values in [[0.1, 0.7, 0.4, 0.6], [-1e-4, -0.2, 0.9, 0.3], [0.6, 1e-3, -1e-2, 0.9], [0.1, 0.1, 0.3, 0.02]] {
-            let of = |[f, slope, g, discriminant]: [f64; 4]| {
-                halves([f, slope, g, discriminant.sqrt()].map(DoubleDouble::from).each_ref()).map(|t| t.hi().atan())
-            };
-            let [f, slope, g, root] = values;
-            let exact = of([f, slope, g, root * root]);
-            for errors in [[1e-9, 0.0, 0.0], [0.0, 1e-9, 0.0], [0.0, 0.0, 1e-9], [1e-9, 2e-9, 3e-10]] {
-                let [error, g_error, d_error] = errors;
-                let mut most = [0.0_f64; 2];
-                for [a, b, c, d] in signs() {
-                    let moved = [f + a * error, slope + b * error, g + c * g_error, root * root + d * d_error];
-                    for ((most, half), exact) in most.iter_mut().zip(of(moved)).zip(exact) {
-                        *most = most.max((half - exact).abs());
-                    }
-                }
-                let bounds = errors_of_halves(values, errors);
-                for (most, bound) in [most[0], most[1] / exact[1].abs()].into_iter().zip(bounds) {
-                    assert!(most <= bound * (1.0 + 1e-5) + 1e-15, "{values:?} {errors:?}: {most:e} {bound:e}");
-                    assert!(bound <= 4.0 * most + 1e-15, "{values:?} {errors:?}: {most:e} {bound:e}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_nearer_flip_loses_no_digit_to_a_difference() {
-        for slope in [1.0, -1.0] {
-            let (f, g) = (1e-40, 0.5);
-            let [far, near] = halves([f, slope, g, 1.0].map(DoubleDouble::from).each_ref());
-            let [far, near] = [far, near].map(|tangent| tangent.hi() * slope);
-            assert!((far + 4.0).abs() < 1e-15 && (near + 0.5e-40).abs() < 1e-55, "{far:e} {near:e}");
         }
     }
 }

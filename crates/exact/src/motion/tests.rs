@@ -126,6 +126,6 @@ fn rates_in_degrees_are_taken_as_they_were_given() {
         assert!((crate::compensated_cos_tilt(&landed).unwrap() - expected.cos_tilt()).abs() < 1e-15, "{time}");
     }
     assert!((motion.cos_tilt(1e6).unwrap() + 0.333_023_119_998_224_26).abs() < 2e-16);
-    let change = crate::margin::margin_coin(&toss).unwrap().time.unwrap();
+    let change = crate::margin(&toss.into()).unwrap().time.unwrap();
     assert!((change / 5.403_405_092_509_659e-4 - 1.0).abs() < 1e-12, "{change}");
 }

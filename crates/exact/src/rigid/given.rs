@@ -119,9 +119,9 @@ impl<N: Elementary> Given<N> {
         Self { exponent, ..self }
     }
 
-    /// A rate (rad/s) in the unit of these.
-    pub(super) fn in_unit(&self, rate: &N) -> N {
-        rate.times_power_of_two(-self.exponent) / self.unit.clone()
+    /// The same with another vertical.
+    pub(super) fn seen_along(self, vertical: [N; 3]) -> Self {
+        Self { vertical, ..self }
     }
 
     /// A time (s) in the unit of that of flight.
