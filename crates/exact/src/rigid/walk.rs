@@ -296,13 +296,13 @@ impl<'a> Walk<'a> {
     /// alone.
     fn flip_within(&mut self, step: f64) -> Option<f64> {
         let [mut before, mut after] = [self.distance, self.distance + step];
-        let mut sign_at = |distance: f64| self.line.sign_at(self.origin + self.sense * distance, &mut self.work);
-        if sign_at(after) != -self.sign {
+        let sign_at = |distance: f64, work: &mut u32| self.line.sign_at(self.origin + self.sense * distance, work);
+        if sign_at(after, &mut self.work) != -self.sign {
             return None;
         }
-        while after - before > f64::EPSILON * (self.offset + after) {
+        while after - before > f64::EPSILON * (self.offset + after) && self.work <= MOST_WORK {
             let middle = 0.5 * (before + after);
-            match sign_at(middle) {
+            match sign_at(middle, &mut self.work) {
                 sign if sign == self.sign => before = middle,
                 sign if sign == -self.sign => after = middle,
                 _ => break,
