@@ -7,7 +7,7 @@
 //!                                  # the paper's coin if not given. Any body, of a Toss or a space, may also be
 //!                                  # { moments = [I1, I2, I3] } or { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }
 //! [launch]
-//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"
+//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"; or turn and wobble
 //! speed = 3.0                      # m/s; or time = 0.6, s
 //! gravity = 9.81                   # m/s²; this and the next two are the defaults
 //! drop = 0.0                       # m, how far below its launch the coin lands
@@ -29,13 +29,9 @@
 //! serde_json reads numbers to the last bit only with its feature `float_roundtrip`.
 
 #[cfg(feature = "serde")]
-mod attitude;
-#[cfg(feature = "serde")]
-mod coin;
-#[cfg(feature = "serde")]
-pub(crate) mod launch;
-#[cfg(feature = "serde")]
 mod number;
+#[cfg(feature = "serde")]
+mod parts;
 #[cfg(feature = "serde")]
 pub(crate) mod settings;
 
