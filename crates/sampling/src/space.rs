@@ -76,6 +76,27 @@ impl Space {
         Ok(space)
     }
 
+    /// The space that consists of `toss` alone.
+    ///
+    /// # Errors
+    /// [`InputError::Malformed`] for a time of flight that does not come from a speed, and for an attitude that is no tilt.
+    pub fn of(toss: &Toss) -> Result<Self, InputError> {
+        let Toss { body, launch } = toss;
+        let other = |field, value, expected| InputError::Malformed { field, value, expected };
+        let (speed, gravity, drop) = match launch.time_of_flight() {
+            TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, None),
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, Some(drop)),
+            TimeOfFlight::Given(time) => {
+                let expected = "a speed in place of the time of flight: a hand spreads in its speed";
+                return Err(other("time", format!("{time:?}"), expected));
+            }
+        };
+        let components = || format!("{:?}", launch.attitude().components());
+        let tilt = launch.tilt().ok_or_else(|| other("attitude", components(), "a tilt about the x axis"))?;
+        let [x, y, z] = launch.rate().into();
+        Self::new(*body, [x, y, z, speed, gravity, tilt].map(|value| AxisOrTie::Axis(value.into())))?.with_drop(drop)
+    }
+
     /// The same space for another coin or body.
     #[must_use]
     pub fn with_body(self, body: impl Into<Body>) -> Self {
