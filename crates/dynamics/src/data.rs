@@ -14,8 +14,9 @@
 //! tilt = 0.0                       # rad; or attitude = [w, x, y, z]
 //! ```
 //!
-//! A number is in the SI unit, and a text has a unit: `"15deg"`, `"24mm"`. Rates, tilts and cylinders keep their unit, so
-//! that proofs start from the numbers as given; other numbers are converted.
+//! The names are those of [`thrown`](crate::thrown). A number is in the SI unit, and a text has a unit: `"15deg"`, `"24mm"`.
+//! Rates, tilts and cylinders keep their unit, so that proofs start from the numbers as given; other numbers, and `turn` with
+//! `wobble`, are converted. A launch without its body has no `turn` and `wobble`.
 //!
 //! | type | as plain data |
 //! |---|---|

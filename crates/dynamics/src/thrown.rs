@@ -535,11 +535,10 @@ impl Thrown {
     pub fn with_launch(self, launch: &Launch) -> Self {
         let (rate, unit) = launch.given_rate();
         let rate = rate.iter().map(|part| Dimension::TurnRate.in_unit(*part, unit)).collect();
-        let flight = match launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => [Some(speed), None, Some(gravity), None],
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => [Some(speed), None, Some(gravity), Some(drop)],
-            TimeOfFlight::Given(time) => [None, Some(time), None, None],
-        };
+        let flight = launch.time_of_flight();
+        let given = if let TimeOfFlight::Given(time) = flight { Some(time) } else { None };
+        let [speed, gravity] = flight.throw().map_or([None; 2], |throw| throw.map(Some));
+        let flight = [speed, given, gravity, flight.drop()];
         let flight = Field::FLIGHT.into_iter().zip(flight).filter_map(|(field, number)| Some((field, number?)));
         let thrown =
             flight.fold(self.with(Field::Rate, rate), |thrown, (field, number)| thrown.with_si(field, &[number]));

@@ -26,6 +26,8 @@ struct Part {
     fields: &'static [&'static str],
     /// All of this in words.
     expected: &'static str,
+    /// Refuses what is wrong with it, so that the error has the place of the part.
+    check: fn(&Thrown) -> Result<(), InputError>,
 }
 
 static BODY: Part = Part {
@@ -34,6 +36,7 @@ static BODY: Part = Part {
     fields: &["moments", "cylinder", "inertia"],
     expected: "a name, { moments = [I1, I3] } or [I1, I2, I3], { cylinder = [mass, radius, thickness] } or { inertia = \
                [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }",
+    check: |thrown| thrown.body().map(drop),
 };
 
 static ATTITUDE: Part = Part {
@@ -41,36 +44,44 @@ static ATTITUDE: Part = Part {
     list: Some(Field::Attitude),
     fields: &["tilt", "unit_quaternion"],
     expected: "[w, x, y, z], { tilt = ANGLE } or { unit_quaternion = [w, x, y, z] }",
+    check: |thrown| thrown.attitude().map(drop),
+};
+
+/// The names of a launch, those of a precession first.
+const LAUNCH_FIELDS: &[&str] = &[
+    "turn",
+    "wobble",
+    "rate",
+    "speed",
+    "gravity",
+    "drop",
+    "time",
+    "tilt",
+    "attitude",
+    "unit_quaternion",
+    "drag",
+    "bounce",
+];
+
+static LAUNCH_OF_BODY: Part = Part {
+    name: None,
+    list: None,
+    fields: LAUNCH_FIELDS,
+    expected: "the table of a launch",
+    // Which body it is makes no difference but for a precession, and the toss sees to that.
+    check: |thrown| thrown.launch(&Coin::PAPER.into(), thrown.time_of_flight()?).map(drop),
 };
 
 /// A launch without its body, from which the rate of a precession would follow.
-static LAUNCH: Part = Part {
+static LAUNCH: Part = Part { fields: LAUNCH_FIELDS.split_at(2).1, ..LAUNCH_OF_BODY };
+
+static TOSS: Part = Part {
     name: None,
     list: None,
-    fields: &["rate", "speed", "gravity", "drop", "time", "tilt", "attitude", "unit_quaternion", "drag", "bounce"],
-    expected: "the table of a launch",
+    fields: &["coin", "body", "launch"],
+    expected: "the table of a coin and a launch",
+    check: |_| Ok(()),
 };
-
-static LAUNCH_OF_BODY: Part = Part {
-    fields: &[
-        "rate",
-        "turn",
-        "wobble",
-        "speed",
-        "gravity",
-        "drop",
-        "time",
-        "tilt",
-        "attitude",
-        "unit_quaternion",
-        "drag",
-        "bounce",
-    ],
-    ..LAUNCH
-};
-
-static TOSS: Part =
-    Part { name: None, list: None, fields: &["coin", "body", "launch"], expected: "the table of a coin and a launch" };
 
 /// Reads a part into the fields of a toss.
 struct Reader<'a> {
@@ -95,7 +106,8 @@ impl<'de> Visitor<'de> for Reader<'_> {
 
     fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
         let refused = || E::invalid_type(serde::de::Unexpected::Str(text), &self.part.expected);
-        self.thrown.set(self.part.name.ok_or_else(refused)?, text).map_err(E::custom)
+        self.thrown.set(self.part.name.ok_or_else(refused)?, text).map_err(E::custom)?;
+        (self.part.check)(self.thrown).map_err(E::custom)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
@@ -105,7 +117,8 @@ impl<'de> Visitor<'de> for Reader<'_> {
         while let Some(number) = list.next_element()? {
             numbers.push(number);
         }
-        put(self.thrown, field, &numbers).map_err(A::Error::custom)
+        put(self.thrown, field, &numbers).map_err(A::Error::custom)?;
+        (self.part.check)(self.thrown).map_err(A::Error::custom)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<(), A::Error> {
@@ -125,12 +138,9 @@ impl<'de> Visitor<'de> for Reader<'_> {
             };
             table.next_value_seed(Reader { part: inner, thrown })?;
         }
-        match part.name.or(part.list).filter(|_| is_empty) {
-            Some(field) => {
-                Err(A::Error::custom(InputError::Missing { field: field.info().name, expected: part.expected }))
-            }
-            None => Ok(()),
-        }
+        let missing = part.name.or(part.list).filter(|_| is_empty);
+        let missing = missing.map(|field| InputError::Missing { field: field.info().name, expected: part.expected });
+        missing.map_or_else(|| (part.check)(thrown), Err).map_err(A::Error::custom)
     }
 }
 
