@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 use toss::report::{Landing, Margin};
-use toss::{CoinMotion, CoinToss, Error, ExactMotion, Registry, Settings, TimeOfFlight, certify};
+use toss::{CoinMotion, CoinToss, Error, ExactMotion, Registry, Settings, certify};
 
 use crate::thrown::Thrown;
 
@@ -55,7 +55,7 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Outcome, Error> {
     Ok(Outcome {
         landing: Landing::new(toss, &exact, false)?.rounded(toss, &thrown.rounding)?,
         stage: certify(toss)?.stage().name(),
-        apex: thrown.thrown_up().map(|(speed, gravity, _)| speed * speed / (2.0 * gravity)),
+        apex: toss.launch.time_of_flight().throw().map(|[speed, gravity]| speed * speed / (2.0 * gravity)),
         input: Input::new(thrown),
         motion: coin.as_ref().map(Precession::new),
         regime: coin.is_none().then(|| format!("{:?}", ExactMotion::new(toss).regime())),
@@ -70,12 +70,9 @@ pub(crate) fn margins(thrown: &Thrown) -> Result<Margin, Error> {
 impl Input {
     fn new(thrown: &Thrown) -> Self {
         let launch = &thrown.toss.launch;
-        let (speed, gravity, drop) = match launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => (Some(speed), Some(gravity), None),
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => (Some(speed), Some(gravity), Some(drop)),
-            TimeOfFlight::Given(_) => (None, None, None),
-        };
-        Self { rate: launch.rate().into(), speed, gravity, drop, tilt: thrown.tilt }
+        let flight = launch.time_of_flight();
+        let [speed, gravity] = flight.throw().map_or([None; 2], |throw| throw.map(Some));
+        Self { rate: launch.rate().into(), speed, gravity, drop: flight.drop(), tilt: thrown.tilt }
     }
 }
 
