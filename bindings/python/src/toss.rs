@@ -2,6 +2,7 @@
 
 use ::toss::{InputError, Launch};
 use dynamics::Thrown;
+use dynamics::quantity::Given;
 use dynamics::thrown::Field;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -93,7 +94,7 @@ impl Toss {
     /// Upward speed at launch in m/s; None if the time of flight was given.
     #[getter]
     fn speed(&self) -> Option<f64> {
-        self.given.one(Field::Speed).map(|speed| speed.si())
+        self.given.one(Field::Speed).map(Given::si)
     }
 
     /// Time of flight in s.

@@ -141,7 +141,7 @@ impl SpaceArgs {
 }
 
 /// The space with this name or in this file. A coin or body that is given replaces that of the space.
-pub(crate) fn space_called<G>(name: &str, coin: &Options<G>) -> Result<Space, Failure> {
+pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>) -> Result<Space, Failure> {
     let body = coin.given_body()?;
     let space = if name.ends_with(".toml") {
         let text = output::read("space", Path::new(name))?;

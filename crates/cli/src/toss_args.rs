@@ -1,13 +1,10 @@
 //! The options that describe one toss: the body, its rate and its launch, and for a flight also the solver. They are the
 //! fields of [`Thrown`], which refuses what contradicts itself. The commands about single tosses share them.
 
-use std::fmt;
-use std::marker::PhantomData;
-
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use dynamics::Thrown;
 use dynamics::quantity::{Given, common_unit};
-use dynamics::thrown::{Field, Holds};
+use dynamics::thrown::{FIELDS, Field, Holds};
 use toss::quantity::Rounding;
 use toss::{Backend, Body, Coin, InputError, Registry, Toss};
 
@@ -15,76 +12,30 @@ use crate::failure::Failure;
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 
-/// Some fields of a toss, each of which is an option.
-pub(crate) trait Group {
-    /// The fields, in the order of the help.
-    const FIELDS: &'static [Field];
-}
+/// The fields that are options of each group: a body, a precession, a rate, and a body with its launch.
+const GROUPS: [fn(Field) -> bool; 4] = [
+    |field| Field::BODY.contains(&field),
+    |field| [Field::Turn, Field::Wobble].contains(&field),
+    |field| [Field::Rate, Field::Turn, Field::Wobble].contains(&field),
+    |field| !field.info().value.is_empty(),
+];
 
-/// The body.
-pub(crate) struct OfBody;
-
-impl Group for OfBody {
-    const FIELDS: &'static [Field] = &Field::BODY;
-}
-
-/// The rate at which the normal n turns about the angular momentum S, and the angle ψ between the two.
-pub(crate) struct OfPrecession;
-
-impl Group for OfPrecession {
-    const FIELDS: &'static [Field] = &[Field::Turn, Field::Wobble];
-}
-
-/// The body rate, by its components or by a precession.
-pub(crate) struct OfRate;
-
-impl Group for OfRate {
-    const FIELDS: &'static [Field] = &[Field::Rate, Field::Turn, Field::Wobble];
-}
-
-/// A body and its launch.
-pub(crate) struct OfToss;
-
-impl Group for OfToss {
-    const FIELDS: &'static [Field] = &[
-        Field::Coin,
-        Field::Cylinder,
-        Field::Moments,
-        Field::Inertia,
-        Field::Rate,
-        Field::Turn,
-        Field::Wobble,
-        Field::Speed,
-        Field::Time,
-        Field::Gravity,
-        Field::Drop,
-        Field::Tilt,
-        Field::Attitude,
-        Field::Drag,
-        Field::Bounce,
-    ];
+fn fields(group: usize) -> impl Iterator<Item = Field> {
+    FIELDS.iter().map(|info| info.field).filter(move |field| GROUPS[group](*field))
 }
 
 /// What the options of a group gave, or what is wrong with one of them.
-pub(crate) struct Options<G> {
-    given: Result<Thrown, InputError>,
-    group: PhantomData<G>,
-}
+#[derive(Debug)]
+pub(crate) struct Options<const GROUP: usize>(Result<Thrown, InputError>);
 
-pub(crate) type CoinArgs = Options<OfBody>;
-pub(crate) type TurnArgs = Options<OfPrecession>;
-pub(crate) type RateArgs = Options<OfRate>;
-pub(crate) type TossArgs = Options<OfToss>;
+pub(crate) type CoinArgs = Options<0>;
+pub(crate) type TurnArgs = Options<1>;
+pub(crate) type RateArgs = Options<2>;
+pub(crate) type TossArgs = Options<3>;
 
-impl<G> fmt::Debug for Options<G> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.given.fmt(f)
-    }
-}
-
-impl<G: Group> Args for Options<G> {
+impl<const GROUP: usize> Args for Options<GROUP> {
     fn augment_args(command: Command) -> Command {
-        G::FIELDS.iter().fold(command, |command, field| command.arg(option(*field)))
+        command.args(fields(GROUP).map(option))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -103,9 +54,9 @@ fn option(field: Field) -> Arg {
     }
 }
 
-impl<G: Group> FromArgMatches for Options<G> {
+impl<const GROUP: usize> FromArgMatches for Options<GROUP> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        Ok(Self { given: thrown(matches, G::FIELDS), group: PhantomData })
+        Ok(Self(thrown(matches, fields(GROUP))))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -114,23 +65,23 @@ impl<G: Group> FromArgMatches for Options<G> {
     }
 }
 
-fn thrown(matches: &ArgMatches, fields: &[Field]) -> Result<Thrown, InputError> {
+fn thrown(matches: &ArgMatches, fields: impl Iterator<Item = Field>) -> Result<Thrown, InputError> {
     let mut thrown = Thrown::default();
     for field in fields {
         let info = field.info();
         if let Holds::One(_) = info.holds {
-            matches.get_one::<Given>(info.name).map_or(Ok(()), |given| thrown.put(*field, vec![*given]))?;
+            matches.get_one::<Given>(info.name).map_or(Ok(()), |given| thrown.put(field, vec![*given]))?;
         } else {
-            matches.get_one::<String>(info.name).map_or(Ok(()), |text| thrown.set(*field, text))?;
+            matches.get_one::<String>(info.name).map_or(Ok(()), |text| thrown.set(field, text))?;
         }
     }
     Ok(thrown)
 }
 
-impl<G> Options<G> {
+impl<const GROUP: usize> Options<GROUP> {
     /// The fields that were given.
     pub(crate) fn thrown(&self) -> Result<&Thrown, Failure> {
-        self.given.as_ref().map_err(|error| error.clone().into())
+        self.0.as_ref().map_err(|error| error.clone().into())
     }
 
     /// The body; the paper's coin if no option gave one.
@@ -145,7 +96,7 @@ impl<G> Options<G> {
 
     /// The option that gives the body.
     fn body_option(&self) -> &'static str {
-        let field = self.given.as_ref().ok().and_then(|thrown| thrown.body_field().ok().flatten());
+        let field = self.0.as_ref().ok().and_then(|thrown| thrown.body_field().ok().flatten());
         field.unwrap_or(Field::Coin).info().name
     }
 
@@ -170,7 +121,7 @@ impl<G> Options<G> {
 
     /// What was typed of the rate, for the title of a chart.
     pub(crate) fn words_of_rate(&self) -> Option<String> {
-        let thrown = self.given.as_ref().ok()?;
+        let thrown = self.0.as_ref().ok()?;
         if let (Some(turn), Some(wobble)) = (thrown.one(Field::Turn), thrown.one(Field::Wobble)) {
             return Some(format!("n turns at {}, ψ = {}", shown(turn), shown(wobble)));
         }
@@ -184,7 +135,7 @@ impl<G> Options<G> {
 
     /// The launch in the units in which it was typed, for the title of a chart.
     pub(crate) fn words(&self) -> String {
-        let thrown = self.given.as_ref().ok();
+        let thrown = self.0.as_ref().ok();
         let tilt = thrown.and_then(|thrown| thrown.one(Field::Tilt)).filter(|tilt| tilt.si() != 0.0);
         let has_attitude = thrown.is_some_and(|thrown| thrown.has(Field::Attitude));
         let tilt = match tilt {

@@ -85,17 +85,15 @@ pub struct FieldInfo {
     pub field: Field,
     /// Its name, for options, files, columns and keywords.
     pub name: &'static str,
-    /// Other names, as columns of a table have them.
-    pub aliases: &'static [&'static str],
     /// Its name in errors about its number, with the SI unit.
     pub label: &'static str,
     /// What it holds.
     pub holds: Holds,
-    /// What stands for its value in a usage line; of a list it names the parts.
+    /// What stands for its value in a usage line; empty for what is no option.
     pub value: &'static str,
     /// What is expected of a list, with every unit.
     pub expected: &'static str,
-    /// What it is, for people.
+    /// What the option is.
     pub help: &'static str,
 }
 
@@ -104,116 +102,97 @@ const CYLINDER: &[Dimension] = &[Dimension::Mass, Dimension::Length, Dimension::
 const TENSOR: &[Dimension] = &[Dimension::Inertia; 6];
 const QUATERNION: &[Dimension] = &[Dimension::Number; 4];
 
-/// A field with one name and one quantity, or without a number.
-const fn one(field: Field, name: &'static str, label: &'static str, holds: Holds) -> FieldInfo {
-    FieldInfo { field, name, aliases: &[], label, holds, value: "", expected: "", help: "" }
+/// A field that is no option.
+const fn field(field: Field, name: &'static str, label: &'static str, holds: Holds) -> FieldInfo {
+    FieldInfo { field, name, label, holds, value: "", expected: "", help: "" }
+}
+
+/// A field of one quantity.
+const fn one(of: Field, name: &'static str, label: &'static str, kind: Dimension) -> FieldInfo {
+    field(of, name, label, Holds::One(kind))
 }
 
 /// A field of several quantities.
-const fn list(field: Field, name: &'static str, holds: &'static [Dimension]) -> FieldInfo {
-    one(field, name, name, Holds::List(holds))
+const fn list(of: Field, name: &'static str, holds: Holds, expected: &'static str) -> FieldInfo {
+    FieldInfo { expected, ..field(of, name, name, holds) }
+}
+
+impl FieldInfo {
+    const fn option(self, value: &'static str, help: &'static str) -> Self {
+        Self { value, help, ..self }
+    }
 }
 
 /// All fields.
 pub static FIELDS: [FieldInfo; 19] = [
-    FieldInfo {
-        value: "NAME",
-        help: "A coin or another body of the catalogue, which `coins` lists [default: paper]",
-        ..one(Field::Coin, "coin", "coin", Holds::Name)
-    },
-    FieldInfo {
-        value: "MASS,RADIUS,THICKNESS",
-        expected: "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft",
-        help: "A homogeneous cylinder as a coin: kg, m and m, or each with a unit",
-        ..list(Field::Cylinder, "cylinder", CYLINDER)
-    },
-    FieldInfo {
-        value: "I1,I3",
-        expected: "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
-        help: "Moments of inertia about a diameter and about the normal, or I1,I2,I3 about the axes x, y and z = n of any \
-               body: kg m², or each with a unit such as g·cm²",
-        ..one(Field::Moments, "moments", "moments", Holds::Several(Dimension::Inertia))
-    },
-    FieldInfo {
-        value: "JXX,JYY,JZZ,JXY,JXZ,JYZ",
-        expected: "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
-        help: "Inertia tensor of any body about its centre of mass, in axes of which z is the normal n: kg m², or each with \
-               a unit; Jxy is -∫ x y dm",
-        ..list(Field::Inertia, "inertia", TENSOR)
-    },
-    FieldInfo {
-        value: "WX,WY,WZ",
-        expected: "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm",
-        help: "Body rate at launch, in the body frame, with z along the normal of the heads side",
-        ..list(Field::Rate, "rate", RATES)
-    },
-    component(Field::RateX, "wx", &["rate_x", "rate-x"], "rate x [rad/s]"),
-    component(Field::RateY, "wy", &["rate_y", "rate-y"], "rate y [rad/s]"),
-    component(Field::RateZ, "wz", &["rate_z", "rate-z"], "rate z [rad/s]"),
-    FieldInfo {
-        value: "RATE",
-        help: "Rate |S|/I1 at which the normal n turns about the angular momentum S; with --wobble in place of the body \
-               rate. It stands for ωx = RATE sin ψ, ωy = 0 and ωz = RATE cos ψ I1/I3",
-        ..one(Field::Turn, "turn", "turn [rad/s]", Holds::One(Dimension::TurnRate))
-    },
-    FieldInfo {
-        value: "PSI",
-        help: "Angle ψ between n and S, from 0 to 180deg; with --turn",
-        ..one(Field::Wobble, "wobble", "wobble [rad]", Holds::One(Dimension::Angle))
-    },
-    FieldInfo {
-        value: "V0",
-        help: "Upward speed v0 at launch",
-        ..one(Field::Speed, "speed", "speed [m/s]", Holds::One(Dimension::Speed))
-    },
-    FieldInfo {
-        value: "T",
-        help: "Time of flight, instead of a speed",
-        ..one(Field::Time, "time", "time [s]", Holds::One(Dimension::Time))
-    },
-    FieldInfo {
-        value: "G",
-        help: "Gravity [default: 9.81]",
-        ..one(Field::Gravity, "gravity", "gravity [m/s²]", Holds::One(Dimension::Acceleration))
-    },
-    FieldInfo {
-        value: "H",
-        help: "Height of the launch above the landing, negative if the coin lands higher [default: 0]",
-        ..one(Field::Drop, "drop", "drop [m]", Holds::One(Dimension::Length))
-    },
-    FieldInfo {
-        value: "B",
-        help: "Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the \
-               normal towards -y [default: 0]",
-        ..one(Field::Tilt, "tilt", "tilt [rad]", Holds::One(Dimension::Angle))
-    },
-    FieldInfo {
-        value: "W,X,Y,Z",
-        expected: "W,X,Y,Z, four numbers",
-        help: "Attitude at launch in place of a tilt: a quaternion from the body to the laboratory, of any norm but 0",
-        ..list(Field::Attitude, "attitude", QUATERNION)
-    },
-    FieldInfo { expected: "W,X,Y,Z, four numbers", ..list(Field::UnitQuaternion, "unit_quaternion", QUATERNION) },
-    FieldInfo {
-        value: "C",
-        help: "Air drag is outside the model; the option is refused with the reason",
-        ..one(Field::Drag, "drag", "drag", Holds::Refused)
-    },
-    FieldInfo {
-        value: "E",
-        help: "Bouncing is outside the model; the option is refused with the reason",
-        ..one(Field::Bounce, "bounce", "bounce", Holds::Refused)
-    },
+    field(Field::Coin, "coin", "coin", Holds::Name)
+        .option("NAME", "A coin or another body of the catalogue, which `coins` lists [default: paper]"),
+    list(
+        Field::Cylinder,
+        "cylinder",
+        Holds::List(CYLINDER),
+        "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft",
+    )
+    .option("MASS,RADIUS,THICKNESS", "A homogeneous cylinder as a coin: kg, m and m, or each with a unit"),
+    list(
+        Field::Moments,
+        "moments",
+        Holds::Several(Dimension::Inertia),
+        "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
+    )
+    .option(
+        "I1,I3",
+        "Moments of inertia about a diameter and about the normal, or I1,I2,I3 about the axes x, y and z = n of any \
+         body: kg m², or each with a unit such as g·cm²",
+    ),
+    list(
+        Field::Inertia,
+        "inertia",
+        Holds::List(TENSOR),
+        "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
+    )
+    .option(
+        "JXX,JYY,JZZ,JXY,JXZ,JYZ",
+        "Inertia tensor of any body about its centre of mass, in axes of which z is the normal n: kg m², or each with \
+         a unit; Jxy is -∫ x y dm",
+    ),
+    list(
+        Field::Rate,
+        "rate",
+        Holds::List(RATES),
+        "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm",
+    )
+    .option("WX,WY,WZ", "Body rate at launch, in the body frame, with z along the normal of the heads side"),
+    one(Field::RateX, "wx", "rate x [rad/s]", Dimension::TurnRate),
+    one(Field::RateY, "wy", "rate y [rad/s]", Dimension::TurnRate),
+    one(Field::RateZ, "wz", "rate z [rad/s]", Dimension::TurnRate),
+    one(Field::Turn, "turn", "turn [rad/s]", Dimension::TurnRate).option(
+        "RATE",
+        "Rate |S|/I1 at which the normal n turns about the angular momentum S; with --wobble in place of the body \
+         rate. It stands for ωx = RATE sin ψ, ωy = 0 and ωz = RATE cos ψ I1/I3",
+    ),
+    one(Field::Wobble, "wobble", "wobble [rad]", Dimension::Angle)
+        .option("PSI", "Angle ψ between n and S, from 0 to 180deg; with --turn"),
+    one(Field::Speed, "speed", "speed [m/s]", Dimension::Speed).option("V0", "Upward speed v0 at launch"),
+    one(Field::Time, "time", "time [s]", Dimension::Time).option("T", "Time of flight, instead of a speed"),
+    one(Field::Gravity, "gravity", "gravity [m/s²]", Dimension::Acceleration).option("G", "Gravity [default: 9.81]"),
+    one(Field::Drop, "drop", "drop [m]", Dimension::Length)
+        .option("H", "Height of the launch above the landing, negative if the coin lands higher [default: 0]"),
+    one(Field::Tilt, "tilt", "tilt [rad]", Dimension::Angle).option(
+        "B",
+        "Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal \
+         towards -y [default: 0]",
+    ),
+    list(Field::Attitude, "attitude", Holds::List(QUATERNION), "W,X,Y,Z, four numbers").option(
+        "W,X,Y,Z",
+        "Attitude at launch in place of a tilt: a quaternion from the body to the laboratory, of any norm but 0",
+    ),
+    list(Field::UnitQuaternion, "unit_quaternion", Holds::List(QUATERNION), "W,X,Y,Z, four numbers"),
+    field(Field::Drag, "drag", "drag", Holds::Refused)
+        .option("C", "Air drag is outside the model; the option is refused with the reason"),
+    field(Field::Bounce, "bounce", "bounce", Holds::Refused)
+        .option("E", "Bouncing is outside the model; the option is refused with the reason"),
 ];
-
-const fn component(
-    field: Field,
-    name: &'static str,
-    aliases: &'static [&'static str],
-    label: &'static str,
-) -> FieldInfo {
-    FieldInfo { aliases, ..one(field, name, label, Holds::One(Dimension::TurnRate)) }
-}
 
 impl Field {
     /// The fields that give the body; one of them is enough.
@@ -227,13 +206,17 @@ impl Field {
         &FIELDS[self as usize]
     }
 
-    /// The field with this name or alias.
+    /// The field with this name. A component of the rate may also be called as in a space.
     ///
     /// # Errors
     /// [`InputError::UnknownName`] with the names of all fields.
     pub fn named(name: &str) -> Result<Self, InputError> {
-        let aliased = FIELDS.iter().find(|info| info.aliases.contains(&name));
-        aliased.map_or_else(|| find_named("field", name, &FIELDS, |info| info.name), Ok).map(|info| info.field)
+        match name {
+            "rate_x" | "rate-x" => Ok(Self::RateX),
+            "rate_y" | "rate-y" => Ok(Self::RateY),
+            "rate_z" | "rate-z" => Ok(Self::RateZ),
+            _ => find_named("field", name, &FIELDS, |info| info.name).map(|info| info.field),
+        }
     }
 
     /// Numbers in the SI units of the field; none if it holds another number of them.

@@ -343,7 +343,7 @@ fn launch(record: &StringRecord, columns: &[Option<Field>], body: Body) -> Resul
     }
     let thrown = thrown.in_si();
     let launch = thrown.launch(&body, thrown.time_of_flight()?)?;
-    let si = |field| thrown.one(field).map(|given| given.si());
+    let si = |field| thrown.one(field).map(dynamics::quantity::Given::si);
     let [wx, wy, wz] = launch.rate().into();
     let speed = si(Field::Speed);
     let gravity = speed.map(|_| si(Field::Gravity).unwrap_or(DEFAULT_GRAVITY));

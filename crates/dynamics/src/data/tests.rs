@@ -54,14 +54,6 @@ fn invalid_input_is_refused_with_the_field_at_fault() {
         (format!("coin = {{ moments = [1] }}\n{launch}"), "moments [kg m²] = '[1.0]' can't be used"),
         (format!("{launch}drag = 0.4"), "drag is outside the model: the flight is free of torque and drag"),
         (format!("{launch}bounce = true"), "bounce is outside the model: the flight ends at the first landing"),
-        (
-            format!("{launch}time = 3"),
-            "time = 'given twice' can't be used: expected a time alone, without speed, gravity and drop",
-        ),
-        (
-            format!("{launch}tilt = 1\nattitude = [1, 0, 0, 0]"),
-            "attitude = 'given twice' can't be used: expected either tilt or attitude",
-        ),
         (format!("{launch}attitude = [0, 0, 0, 0]"), "attitude (largest component) = 0.0"),
         (format!("{launch}drop = -1"), "drop [m] = -1.0 is outside its valid range"),
         (format!("{launch}wind = 3"), "unknown field `wind`"),
@@ -84,16 +76,10 @@ fn invalid_input_is_refused_with_the_field_at_fault() {
         ),
         ("[launch]\nrate = [1, 1]\nspeed = 3".to_owned(), "rate = '[1.0, 1.0]'"),
         ("[launch]\nrate = [1, 1, 2]".to_owned(), "speed is missing: expected a speed, or a time of flight"),
-        ("[launch]\nspeed = 3".to_owned(), "rate is missing: expected a rate, or turn with wobble"),
         ("[launch]\nrate = ['1rev/s', '2deg/s', 0]\nspeed = 3".to_owned(), "rate = '1.0rev/s,2.0deg/s,0.0rad/s' can't"),
         (format!("{launch}attitude = {{ tilt = 1, unit_quaternion = [1, 0, 0, 0] }}"), "attitude = 'given twice'"),
         (format!("{launch}tilt = 1\nattitude = {{ tilt = 2 }}"), "tilt = 'given twice'"),
         (format!("{launch}attitude = {{ }}"), "attitude is missing: expected [w, x, y, z], {"),
-        ("[launch]\nturn = 1\nspeed = 3".to_owned(), "wobble is missing"),
-        (
-            format!("{launch}turn = 1\nwobble = 1"),
-            "rate = 'given twice' can't be used: expected either a rate, or turn",
-        ),
     ] {
         let found = read(&text).unwrap_err();
         assert!(found.starts_with(message), "'{found}' for '{text}'");
