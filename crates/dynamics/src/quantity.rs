@@ -110,6 +110,17 @@ const INERTIA: Row = (
 );
 const NUMBER: Row = ("a number", &[unit("", 1, 1)]);
 
+/// The size of a unit without a name, such as `@1/7` or `@1/7turn`.
+fn size(text: &str) -> Option<AngleUnit> {
+    let text = text.strip_prefix('@')?;
+    let (ratio, of): (&str, fn(Unit) -> AngleUnit) = match text.strip_suffix("turn") {
+        Some(ratio) => (ratio, AngleUnit::Turns),
+        None => (text, AngleUnit::Radians),
+    };
+    let (numerator, denominator) = ratio.split_once('/')?;
+    Some(of(Unit::ratio(numerator.parse().ok()?, denominator.parse().ok()?)?))
+}
+
 impl NamedUnit {
     /// So many of this unit.
     pub fn times(self, value: f64) -> Given {
@@ -145,18 +156,6 @@ impl NamedUnit {
 
     fn is_part_of_turn(&self) -> bool {
         matches!(self.size, AngleUnit::Turns(_))
-    }
-
-    /// The unit without a name that `text` is the size of, such as `@1/7` or `@1/7turn`.
-    fn of_size(text: &str) -> Option<Self> {
-        let text = text.strip_prefix('@')?;
-        let (ratio, of): (&str, fn(Unit) -> AngleUnit) = match text.strip_suffix("turn") {
-            Some(ratio) => (ratio, AngleUnit::Turns),
-            None => (text, AngleUnit::Radians),
-        };
-        let (numerator, denominator) = ratio.split_once('/')?;
-        let size = of(Unit::ratio(numerator.parse().ok()?, denominator.parse().ok()?)?);
-        Some(Self { name: "", size })
     }
 
     /// Whether `text` names this unit. Blanks, `·`, `*` and `^` between the parts of a unit make no difference, and
@@ -312,10 +311,11 @@ impl Dimension {
         // The longest start of the text that is a number: `1e3` of `1e3m/s`.
         let (value, name) =
             text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
-        let named = self.units().iter().find(|unit| unit.is_called(name)).copied();
+        let named = self.units().iter().find(|unit| unit.is_called(name)).map(|unit| unit.times(value));
         let has_turns = self.units().iter().any(NamedUnit::is_part_of_turn);
-        let sized = || NamedUnit::of_size(name).filter(|unit| has_turns || !unit.is_part_of_turn());
-        Some((Given { value, unit: named.or_else(sized)? }, true))
+        let sized = || size(name).filter(|size| has_turns || !matches!(size, AngleUnit::Turns(_)));
+        let given = named.or_else(|| sized().map(|size| self.in_unit(value, size)))?;
+        Some((given, true))
     }
 }
 

@@ -42,6 +42,8 @@ fn a_unit_without_a_name_is_written_as_its_size() {
         let given = dimension.in_unit(0.1, size);
         assert_eq!((given.to_string().as_str(), dimension.given("x", text)), (text, Ok(given)));
     }
+    assert_eq!(Length.given("x", "2@1/1"), Length.given("x", "2"));
+    assert_eq!(Length.given("x", "2@1/1000"), Length.given("x", "2mm"));
     for (dimension, text) in
         [(Length, "1@3/7turn"), (Length, "1@3/0"), (Angle, "1@0/3turn"), (Angle, "1@3"), (Mass, "1@")]
     {
