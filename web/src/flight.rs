@@ -2,7 +2,7 @@
 //! animation reads them sixty times a second.
 
 use serde::Serialize;
-use toss::{Error, ExactMotion, InputError, SolveError, TimeOfFlight, Toss, Vector3};
+use toss::{Error, ExactMotion, InputError, SolveError, Toss, Vector3};
 
 use crate::thrown::Thrown;
 
@@ -61,11 +61,9 @@ impl Flight {
             let time = flight_time * (index as f64 / (points - 1) as f64);
             numbers.extend(self.point(time)?);
         }
-        let (apex, drop) = match self.toss.launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => (speed * speed / (2.0 * gravity), 0.0),
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed * speed / (2.0 * gravity), drop),
-            TimeOfFlight::Given(_) => (0.0, 0.0),
-        };
+        let flight = self.toss.launch.time_of_flight();
+        let apex = flight.throw().map_or(0.0, |[speed, gravity]| speed * speed / (2.0 * gravity));
+        let drop = flight.drop().unwrap_or(0.0);
         let momentum = self.momentum().map(<[f64; 3]>::from);
         let moments = self.toss.body.moments().unwrap_or_else(|| self.toss.body.principal_moments());
         Ok(Course { flight_time, points, momentum, apex, drop, turns: phase / std::f64::consts::TAU, moments })
@@ -106,12 +104,8 @@ impl Flight {
 
     /// The height above the launch (m); 0 if the time of flight was given, which says nothing of it.
     fn height(&self, time: f64) -> f64 {
-        match self.toss.launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } | TimeOfFlight::BallisticTo { speed, gravity, .. } => {
-                (speed - 0.5 * gravity * time) * time
-            }
-            TimeOfFlight::Given(_) => 0.0,
-        }
+        let throw = self.toss.launch.time_of_flight().throw();
+        throw.map_or(0.0, |[speed, gravity]| (speed - 0.5 * gravity * time) * time)
     }
 
     /// The direction of the angular momentum (unit vector in LF).

@@ -8,7 +8,7 @@
 //! That is at v0 = g T/2, with T the time of the first flip.
 
 use serde::Serialize;
-use toss::{CoinMotion, CoinToss, Error, Launch, TimeOfFlight, Vector3};
+use toss::{CoinMotion, CoinToss, Error, Launch, Vector3};
 
 use crate::map::{Grid, Up};
 use crate::thrown::Thrown;
@@ -92,19 +92,17 @@ impl Edge {
 
 /// The speed at which each ωx is caught at its first flip.
 fn first_flips(toss: &CoinToss, grid: &Grid) -> Result<Vec<Option<[f64; 2]>>, Error> {
-    let (gravity, drop) = match toss.launch.time_of_flight() {
-        TimeOfFlight::Ballistic { gravity, .. } => (gravity, 0.0),
-        TimeOfFlight::BallisticTo { gravity, drop, .. } => (gravity, drop),
-        TimeOfFlight::Given(_) => return Ok(Vec::new()),
-    };
+    let flight = toss.launch.time_of_flight();
+    if flight.throw().is_none() {
+        return Ok(Vec::new());
+    }
     let rate = toss.launch.rate();
     let [lo, hi] = grid.across;
     let at = |part: u32| {
         let x = lo + (hi - lo) * f64::from(part) / f64::from(POINTS);
-        let launch = Launch::new(Vector3::new(x, rate.y, rate.z), toss.launch.time_of_flight())?;
+        let launch = Launch::new(Vector3::new(x, rate.y, rate.z), flight)?;
         let here = CoinToss { coin: toss.coin, launch: launch.with_attitude(toss.launch.attitude()) };
-        // From T = (v0 + √(v0² + 2 g h))/g.
-        let speed = CoinMotion::new(&here).first_flip().map(|time| 0.5 * gravity * time - drop / time);
+        let speed = CoinMotion::new(&here).first_flip().and_then(|time| flight.speed_of(time));
         Ok(speed.filter(|speed| (grid.over[0]..=grid.over[1]).contains(speed)).map(|speed| [x, speed]))
     };
     (0..=POINTS).map(at).collect()

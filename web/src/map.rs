@@ -114,18 +114,16 @@ struct Flights {
 impl Flights {
     fn of(thrown: &Thrown) -> Result<Self, InputError> {
         let own = thrown.toss.launch.flight_time();
-        match thrown.toss.launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => Ok(Self { gravity, speed: Box::new(Ok), own: speed }),
-            // With a gravity of 2 m/s² the speed is the time of flight.
-            TimeOfFlight::BallisticTo { gravity, drop, .. } => {
-                let time = move |speed| {
-                    let launch = Launch::new([0.0; 3], TimeOfFlight::BallisticTo { speed, gravity, drop })?;
-                    Ok(launch.flight_time())
-                };
-                Ok(Self { gravity: 2.0, speed: Box::new(time), own })
-            }
-            TimeOfFlight::Given(_) => Ok(Self { gravity: 2.0, speed: Box::new(|_| Err(NO_SPEED)), own }),
+        let flight = thrown.toss.launch.time_of_flight();
+        if let TimeOfFlight::Ballistic { speed, gravity } = flight {
+            return Ok(Self { gravity, speed: Box::new(Ok), own: speed });
         }
+        // With a gravity of 2 m/s² the speed is the time of flight.
+        let time = move |speed| {
+            let launch = Launch::new([0.0; 3], flight.with_speed(speed).ok_or(NO_SPEED)?)?;
+            Ok(launch.flight_time())
+        };
+        Ok(Self { gravity: 2.0, speed: Box::new(time), own })
     }
 }
 
@@ -157,13 +155,9 @@ fn rigid_outcomes(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<(
     let launch = &thrown.toss.launch;
     let rate = launch.rate();
     for (x, up) in grid.places() {
-        let (z, time) = match (grid.up, launch.time_of_flight()) {
-            (Up::RateZ, time) => (up, time),
-            (Up::Speed, TimeOfFlight::Ballistic { gravity, .. }) => (rate.z, TimeOfFlight::thrown(up, gravity, None)),
-            (Up::Speed, TimeOfFlight::BallisticTo { gravity, drop, .. }) => {
-                (rate.z, TimeOfFlight::thrown(up, gravity, Some(drop)))
-            }
-            (Up::Speed, TimeOfFlight::Given(_)) => return Err(NO_SPEED.into()),
+        let (z, time) = match grid.up {
+            Up::RateZ => (up, launch.time_of_flight()),
+            Up::Speed => (rate.z, launch.time_of_flight().with_speed(up).ok_or(NO_SPEED)?),
         };
         let here = Launch::new(Vector3::new(x, rate.y, z), time)?.with_attitude(launch.attitude());
         let body: Body = thrown.toss.body;

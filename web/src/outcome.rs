@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 use toss::report::Landing;
-use toss::{CoinMotion, CoinToss, Error, ExactMotion, Margin, Registry, Settings, Stage, TimeOfFlight, margin};
+use toss::{CoinMotion, CoinToss, Error, ExactMotion, Margin, Registry, Settings, Stage, margin};
 
 use crate::thrown::Thrown;
 
@@ -58,7 +58,7 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Outcome, Error> {
     Ok(Outcome {
         stage: landing.stage.map(Stage::name),
         landing,
-        apex: thrown.thrown_up().map(|(speed, gravity, _)| speed * speed / (2.0 * gravity)),
+        apex: toss.launch.time_of_flight().throw().map(|[speed, gravity]| speed * speed / (2.0 * gravity)),
         input: Input::new(thrown),
         motion: coin.as_ref().map(Precession::new),
         regime: coin.is_none().then(|| format!("{:?}", ExactMotion::new(toss).regime())),
@@ -73,12 +73,9 @@ pub(crate) fn margins(thrown: &Thrown) -> Result<Margin, Error> {
 impl Input {
     fn new(thrown: &Thrown) -> Self {
         let launch = &thrown.toss.launch;
-        let (speed, gravity, drop) = match launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => (Some(speed), Some(gravity), None),
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => (Some(speed), Some(gravity), Some(drop)),
-            TimeOfFlight::Given(_) => (None, None, None),
-        };
-        Self { rate: launch.rate().into(), speed, gravity, drop, tilt: thrown.tilt }
+        let flight = launch.time_of_flight();
+        let [speed, gravity] = flight.throw().map_or([None; 2], |throw| throw.map(Some));
+        Self { rate: launch.rate().into(), speed, gravity, drop: flight.drop(), tilt: thrown.tilt }
     }
 }
 

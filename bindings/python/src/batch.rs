@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use ::toss::Attitude;
+use dynamics::Thrown;
 use dynamics::error::require;
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -15,7 +16,7 @@ use crate::given::{count, number, optional_number};
 use crate::launches::{Common, Counts, Launches, added};
 use crate::solver::backend_of;
 use crate::threads::{self, A_CALL, A_PROOF};
-use crate::toss::{attitude_of, components_of};
+use crate::toss::put_attitude;
 
 /// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
 const A_SLOW_CALL: usize = 1 << 6;
@@ -57,11 +58,13 @@ impl Batch {
         solver: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (drop, tilt) = (optional_number("drop", drop)?, optional_number("tilt", tilt)?);
+        let drop = optional_number("drop", drop)?;
         let gravity = number("gravity", gravity)?;
         require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
         drop.map(|drop| require("drop [m]", drop, "finite", true)).transpose().map_err(Failure::from)?;
-        let attitude = attitude_of(tilt, attitude.map(components_of).transpose()?)?.unwrap_or(Attitude::IDENTITY);
+        let mut given = Thrown::default();
+        put_attitude(&mut given, tilt, attitude)?;
+        let attitude = given.attitude().map_err(Failure::from)?.unwrap_or(Attitude::IDENTITY);
         let threads = threads.map(|threads| count("threads", threads)).transpose()?;
         let pool = if threads == Some(1) { None } else { Some(Arc::new(threads::pool(threads)?)) };
         let solver = solver.map(backend_of).transpose()?;

@@ -133,12 +133,9 @@ pub(crate) fn intervals(
     slowest: &Bound<'_, PyAny>,
 ) -> PyResult<Vec<[f64; 2]>> {
     let slowest = number("slowest", slowest)?;
-    let (fastest, from) = match toss.launch.time_of_flight() {
-        TimeOfFlight::Ballistic { speed, gravity } => (speed, TimeOfFlight::Ballistic { speed: slowest, gravity }),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            (speed, TimeOfFlight::BallisticTo { speed: slowest, gravity, drop })
-        }
-        _ => return Err(malformed("toss", "given by a time", "a toss with a speed, the fastest of the range")),
+    let flight = toss.launch.time_of_flight();
+    let (Some([fastest, _]), Some(from)) = (flight.throw(), flight.with_speed(slowest)) else {
+        return Err(malformed("toss", "given by a time", "a toss with a speed, the fastest of the range"));
     };
     // The slowest throw has to reach the landing, too.
     Launch::new(toss.launch.rate(), from).map_err(|error| Failure::from(error).of("slowest [m/s]"))?;

@@ -1,12 +1,14 @@
 //! A body and its launch.
 
-use ::toss::{Attitude, InputError, Launch, TimeOfFlight};
-use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use ::toss::{InputError, Launch};
+use dynamics::Thrown;
+use dynamics::quantity::Given;
+use dynamics::thrown::Field;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::body::{Body, body_of};
-use crate::errors::{Failure, malformed};
+use crate::errors::Failure;
 use crate::given::{no_others, object, optional_number, refused_value, vector};
 
 /// A body and its launch: all that a flight depends on.
@@ -33,19 +35,8 @@ use crate::given::{no_others, object, optional_number, refused_value, vector};
 pub(crate) struct Toss {
     pub(crate) toss: ::toss::Toss,
     body: Py<Body>,
-    given: Given,
-}
-
-/// The arguments of a launch, as they were given.
-#[derive(Clone, Debug, PartialEq)]
-struct Given {
-    rate: [f64; 3],
-    speed: Option<f64>,
-    time: Option<f64>,
-    gravity: Option<f64>,
-    drop: Option<f64>,
-    tilt: Option<f64>,
-    attitude: Option<[f64; 4]>,
+    /// The arguments of the launch.
+    given: Thrown,
 }
 
 impl PartialEq for Toss {
@@ -72,20 +63,19 @@ impl Toss {
         others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         no_others::<Self>(py, others)?;
-        let given = Given {
-            rate: vector("rate", rate, "a sequence of 3 real numbers")?,
-            speed: optional_number("speed", speed)?,
-            time: optional_number("time", time)?,
-            gravity: optional_number("gravity", gravity)?,
-            drop: optional_number("drop", drop)?,
-            tilt: optional_number("tilt", tilt)?,
-            attitude: attitude.map(components_of).transpose()?,
-        };
+        let mut given = Thrown::default();
+        let rate = vector("rate", rate, "a sequence of 3 real numbers")?;
+        given.put_si(Field::Rate, &rate).map_err(Failure::from)?;
+        put_number(&mut given, Field::Speed, speed)?;
+        put_number(&mut given, Field::Time, time)?;
+        put_number(&mut given, Field::Gravity, gravity)?;
+        put_number(&mut given, Field::Drop, drop)?;
+        put_attitude(&mut given, tilt, attitude)?;
         let body = match body {
             Some(body) => body_of(body)?,
             None => Py::new(py, Body::of_name("paper".to_owned(), "body")?)?,
         };
-        let toss = ::toss::Toss::new(body.get().body, given.launch()?);
+        let toss = ::toss::Toss::new(body.get().body, launch(&given, rate, &body.get().body)?);
         Ok(Self { toss, body, given })
     }
 
@@ -98,13 +88,13 @@ impl Toss {
     /// Angular velocity at launch, x, y, z in rad/s along the axes of the body.
     #[getter]
     fn rate(&self) -> [f64; 3] {
-        self.given.rate
+        self.toss.launch.rate().into()
     }
 
     /// Upward speed at launch in m/s; None if the time of flight was given.
     #[getter]
     fn speed(&self) -> Option<f64> {
-        self.given.speed
+        self.given.one(Field::Speed).map(Given::si)
     }
 
     /// Time of flight in s.
@@ -120,12 +110,9 @@ impl Toss {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let Given { rate, .. } = self.given;
-        let mut text = format!("Toss({rate:?}");
+        let mut text = format!("Toss({:?}", self.rate());
         for (name, value) in self.keywords(py)?.iter() {
-            if !value.is_none() {
-                text += &format!(", {name}={}", value.repr()?);
-            }
+            text += &format!(", {name}={}", value.repr()?);
         }
         Ok(text + ")")
     }
@@ -134,68 +121,59 @@ impl Toss {
         // A rate of -0 is one of 0.
         let bits = |number: f64| (number + 0.0).to_bits();
         let time = bits(self.toss.launch.flight_time());
-        self.given.rate.iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
+        self.rate().iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(([f64; 3],), Bound<'py, PyDict>)> {
-        Ok(((self.given.rate,), self.keywords(py)?))
+        Ok(((self.rate(),), self.keywords(py)?))
     }
 }
 
 impl Toss {
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Given { speed, time, gravity, drop, tilt, attitude, .. } = self.given;
         let keywords = PyDict::new(py);
-        for (name, value) in [("speed", speed), ("time", time), ("gravity", gravity), ("drop", drop), ("tilt", tilt)] {
-            keywords.set_item(name, value)?;
+        for (field, numbers) in self.given.given().filter(|(field, _)| *field != Field::Rate) {
+            let name = field.info().name;
+            match numbers {
+                [number] => keywords.set_item(name, number.si())?,
+                numbers => keywords.set_item(name, numbers.iter().map(|number| number.si()).collect::<Vec<f64>>())?,
+            }
         }
-        keywords.set_item("attitude", attitude)?;
         keywords.set_item("body", &self.body)?;
         Ok(keywords)
     }
 }
 
-impl Given {
-    fn launch(&self) -> PyResult<Launch> {
-        let &Self { rate, speed, time, gravity, drop, tilt, attitude } = self;
-        let unused = [("gravity", gravity), ("drop", drop)].into_iter().find(|(_, value)| value.is_some());
-        let time_of_flight = match (speed, time, unused) {
-            (Some(_), Some(_), _) => return Err(malformed("time", "given with a speed", "either speed or time")),
-            (None, None, _) => {
-                return Err(Failure::from(InputError::Missing { field: "speed", expected: "a speed or a time" }).into());
-            }
-            (None, Some(_), Some((field, _))) => return Err(malformed(field, "given with a time", "None, or a speed")),
-            (None, Some(time), None) => TimeOfFlight::Given(time),
-            (Some(speed), None, _) => TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop),
-        };
-        // Each component of the rate has a field of its own.
-        if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
-            let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
-            return Err(Failure::from(fault).element(axis as u64).into());
-        }
-        let launch = Launch::new(rate, time_of_flight).map_err(Failure::from)?;
-        Ok(match attitude_of(tilt, attitude)? {
-            Some(attitude) => launch.with_attitude(attitude),
-            None => launch,
-        })
+/// The launch of `body`, at `rate`.
+fn launch(given: &Thrown, rate: [f64; 3], body: &::toss::Body) -> PyResult<Launch> {
+    // Each component of the rate has a field of its own.
+    if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
+        let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
+        return Err(Failure::from(fault).element(axis as u64).into());
     }
+    let launch = given.time_of_flight().and_then(|time| given.launch(body, time));
+    Ok(launch.map_err(Failure::from)?)
 }
 
-/// The attitude at launch that is given by a tilt (rad) or by components (w, x, y, z).
-pub(crate) fn attitude_of(tilt: Option<f64>, components: Option<[f64; 4]>) -> PyResult<Option<Attitude>> {
-    match (tilt, components) {
-        (Some(_), Some(_)) => Err(malformed("attitude", "given with a tilt", "either tilt or attitude")),
-        (None, None) => Ok(None),
-        (None, Some(components)) => Ok(Some(Attitude::from_components(components).map_err(Failure::from)?)),
-        (Some(tilt), None) => {
-            dynamics::error::require("tilt [rad]", tilt, "finite", true).map_err(Failure::from)?;
-            Ok(Some(Attitude::about_x(tilt)))
-        }
-    }
+/// Gives `field` by the argument of its name.
+fn put_number(given: &mut Thrown, field: Field, value: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    let Some(number) = optional_number(field.info().name, value)? else { return Ok(()) };
+    Ok(given.put_si(field, &[number]).map_err(Failure::from)?)
+}
+
+/// Gives the attitude at launch by the arguments `tilt` and `attitude`.
+pub(crate) fn put_attitude(
+    given: &mut Thrown,
+    tilt: Option<&Bound<'_, PyAny>>,
+    attitude: Option<&Bound<'_, PyAny>>,
+) -> PyResult<()> {
+    put_number(given, Field::Tilt, tilt)?;
+    let Some(components) = attitude.map(components_of).transpose()? else { return Ok(()) };
+    Ok(given.put_si(Field::Attitude, &components).map_err(Failure::from)?)
 }
 
 /// The components (w, x, y, z) of four numbers, or of one of SciPy's rotations.
-pub(crate) fn components_of(attitude: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
+fn components_of(attitude: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
     const EXPECTED: &str = "4 real numbers (w, x, y, z), or a single rotation of SciPy";
     if !attitude.hasattr("as_quat").unwrap_or(false) {
         return vector("attitude", attitude, EXPECTED);

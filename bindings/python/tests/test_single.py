@@ -300,8 +300,9 @@ def test_exceptions_travel_to_other_processes():
     [
         ({}, errors.MissingError, "speed"),
         ({"speed": 3, "time": 1}, errors.MalformedError, "time"),
-        ({"time": 1, "gravity": 9}, errors.MalformedError, "gravity"),
-        ({"time": 1, "drop": 9}, errors.MalformedError, "drop"),
+        ({"time": 1, "gravity": 9}, errors.MalformedError, "time"),
+        ({"time": 1, "drop": 9}, errors.MalformedError, "time"),
+        ({"time": 1, "tilt": 1, "attitude": (1, 0, 0, 0)}, errors.MalformedError, "attitude"),
         ({"speed": -1}, errors.OutOfRangeError, "speed [m/s]"),
         ({"speed": 1, "drop": -9}, errors.OutOfRangeError, "drop [m]"),
         ({"speed": 1, "tilt": float("inf")}, errors.OutOfRangeError, "tilt [rad]"),

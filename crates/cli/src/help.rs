@@ -12,7 +12,7 @@ const GROUPS: [(&str, &str); 5] = [
     ),
     (
         "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
-        "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt space spread drag bounce from scene",
+        "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt attitude space spread drag bounce from scene",
     ),
     ("Solver", "solver scheme tolerance step formulation prove"),
     ("Sampling", "method accuracy points seed steps replicates up_to reference across up threads heads shard"),

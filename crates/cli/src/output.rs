@@ -5,14 +5,15 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Command};
+use dynamics::Thrown;
 use dynamics::quantity::Given;
+use dynamics::thrown::{Field, Holds};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
 use crate::json::{SCHEMA, plain_json};
-use crate::quantity;
 
 /// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -182,9 +183,16 @@ fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     let number = typed::<f64>(name, given).or_else(|| typed::<Given>(name, given).map(Given::si)).map(Value::from);
     let small = || typed::<u32>(name, given).map(u64::from).or_else(|| Some(typed::<usize>(name, given)? as u64));
     let whole = || typed::<u64>(name, given).or_else(small).map(whole);
-    let list = |text: &str| Some(quantity::list(name, text)?.ok()?.into_iter().map(Given::si).collect::<Vec<f64>>());
-    let text = || texts()?.next().map(|text| list(&text).map_or_else(|| text.clone().into(), Value::from));
+    let text = || texts()?.next().map(|text| list(name, &text).map_or_else(|| text.clone().into(), Value::from));
     number.or_else(whole).or_else(text)
+}
+
+/// The numbers of an option that is a list of them, in SI units.
+fn list(name: &str, text: &str) -> Option<Vec<f64>> {
+    let field = Field::named(name).ok().filter(|of| matches!(of.info().holds, Holds::List(_) | Holds::Several(_)))?;
+    let mut thrown = Thrown::default();
+    thrown.set(field, text).ok()?;
+    Some(thrown.numbers(field).iter().map(|given| given.si()).collect())
 }
 
 /// An answer, which has fields, as JSON.

@@ -7,26 +7,9 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dynamics::Dimension;
-use dynamics::quantity::{Given, look_alike, read_count, read_fraction, read_quantities};
+use dynamics::quantity::{Given, look_alike, read_count, read_fraction};
 use sampling::Method;
-use toss::InputError;
 use toss::planner::WantKind;
-
-/// The options that are lists of quantities: name, what is expected, and the kinds of the parts.
-const LISTS: [(&str, &str, &[Dimension]); 4] = [
-    ("rate", "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm", &[Dimension::TurnRate; 3]),
-    (
-        "cylinder",
-        "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft",
-        &[Dimension::Mass, Dimension::Length, Dimension::Length],
-    ),
-    ("moments", "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²", &[Dimension::Inertia; 3]),
-    (
-        "inertia",
-        "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
-        &[Dimension::Inertia; 6],
-    ),
-];
 
 /// A reader of an option that is a quantity of this kind, in the SI unit.
 pub(crate) fn of(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
@@ -92,37 +75,4 @@ fn expected(text: &str, expected: &str) -> String {
     let look_alike = look_alike(text)
         .map(|(found, meant)| format!("'{found}' (U+{:04X}) only looks like '{meant}'; ", u32::from(found)));
     format!("{}expected {expected}", look_alike.unwrap_or_default())
-}
-
-/// The quantities of an option that is a list; `None` for any other option.
-pub(crate) fn list(option: &str, text: &str) -> Option<Result<Vec<Given>, InputError>> {
-    let (field, expected, kinds) = LISTS.iter().find(|(name, ..)| *name == option)?;
-    let parts: Vec<&str> = text.split(',').collect();
-    // A body says itself how many moments it has.
-    let of = |index: usize| if *field == "moments" { Some(Dimension::Inertia) } else { kinds.get(index).copied() };
-    let kinds: Option<Vec<Dimension>> = (0..parts.len().max(kinds.len())).map(of).collect();
-    let read = match kinds.filter(|kinds| *field == "moments" || kinds.len() == parts.len()) {
-        Some(kinds) => read_quantities(field, text, expected, &kinds.into_iter().zip(parts).collect::<Vec<_>>()),
-        None => Err(InputError::unreadable(field, text, expected)),
-    };
-    Some(read)
-}
-
-/// The `N` quantities of an option that is a list of as many.
-pub(crate) fn listed<const N: usize>(option: &str, text: &str) -> Result<[Given; N], InputError> {
-    let read = list(option, text).expect("an option that is a list")?;
-    Ok(read.try_into().unwrap_or_else(|_| unreachable!("as many as are expected")))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_expected_of_lists_names_every_unit() {
-        for (_, expected, kinds) in LISTS {
-            let units = kinds.iter().flat_map(|kind| kind.units());
-            assert!(units.into_iter().all(|unit| expected.contains(unit.name())), "{expected}");
-        }
-    }
 }

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use clap::Args;
+use dynamics::thrown::Field;
 use indicatif::ProgressBar;
 use sampling::enclosure::usual_accuracy;
 use sampling::{
@@ -17,7 +18,7 @@ use crate::chart::named;
 use crate::failure::Failure;
 use crate::output::{self, counter, progress_bar};
 use crate::quantity;
-use crate::toss_args::{CoinArgs, TurnArgs};
+use crate::toss_args::{CoinArgs, Options, TurnArgs};
 
 /// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
@@ -79,7 +80,7 @@ impl SpaceArgs {
 
     fn space_of_axes(&self) -> Result<Space, Failure> {
         let body = self.coin.body()?;
-        let [x, y, z] = match self.turn.rate(&body)? {
+        let [x, y, z] = match self.turn.thrown()?.precession(&body)? {
             // Display writes the fewest digits that read back as the same number.
             Some(rate) => [rate.x, rate.y, rate.z].map(|rate| Some(rate.to_string())),
             None => [self.rate_x.clone(), self.rate_y.clone(), self.rate_z.clone()],
@@ -104,14 +105,15 @@ impl SpaceArgs {
             let symbol = of.symbol().split('/').next().unwrap_or_default();
             text.as_ref().map(|text| format!("{symbol} {text}"))
         });
-        let axes: Vec<String> = self.turn.words().into_iter().chain(typed).collect();
+        let axes: Vec<String> = self.turn.words_of_rate().into_iter().chain(typed).collect();
         format!("{}: {}", named(space.body()), axes.join(", "))
     }
 
     /// Refuses a map over a rate that `--turn` and `--wobble` fix.
     pub(crate) fn require_free_rates(&self, axes: [Coordinate; 2]) -> Result<(), Failure> {
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ];
-        let Some(of) = axes.into_iter().find(|of| self.turn.is_given() && rates.contains(of)) else { return Ok(()) };
+        let is_fixed = self.turn.thrown()?.has(Field::Turn);
+        let Some(of) = axes.into_iter().find(|of| is_fixed && rates.contains(of)) else { return Ok(()) };
         let rate = of.name();
         let message = format!(
             "--turn and --wobble fix {rate}: a map of it needs --rate-x, --rate-y and --rate-z, with its own as LO:HI:POINTS"
@@ -139,8 +141,8 @@ impl SpaceArgs {
 }
 
 /// The space with this name or in this file. A coin or body that is given replaces that of the space.
-pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
-    let body = coin.given()?;
+pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>) -> Result<Space, Failure> {
+    let body = coin.given_body()?;
     let space = if name.ends_with(".toml") {
         let text = output::read("space", Path::new(name))?;
         let described = DescribedSpace::from_toml(&text);

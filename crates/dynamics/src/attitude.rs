@@ -76,7 +76,6 @@ impl Attitude {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the norm differs from 1 by more than 1e-14.
-    #[cfg(feature = "serde")]
     pub(crate) fn from_unit_components([w, x, y, z]: [f64; 4]) -> Result<Self, InputError> {
         let quaternion = Quaternion::new(w, x, y, z);
         let norm = quaternion.norm();

@@ -151,11 +151,6 @@ impl Body {
         Ok(Self::Rigid(body))
     }
 
-    #[cfg(feature = "serde")]
-    pub(crate) fn paper() -> Self {
-        Coin::PAPER.into()
-    }
-
     /// The coin that this body is, if it is one.
     pub fn coin(&self) -> Option<Coin> {
         if let Self::Coin(coin) = self { Some(*coin) } else { None }

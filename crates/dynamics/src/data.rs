@@ -7,15 +7,16 @@
 //!                                  # the paper's coin if not given. Any body, of a Toss or a space, may also be
 //!                                  # { moments = [I1, I2, I3] } or { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }
 //! [launch]
-//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"
+//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"; or turn and wobble
 //! speed = 3.0                      # m/s; or time = 0.6, s
 //! gravity = 9.81                   # m/s²; this and the next two are the defaults
 //! drop = 0.0                       # m, how far below its launch the coin lands
 //! tilt = 0.0                       # rad; or attitude = [w, x, y, z]
 //! ```
 //!
-//! A number is in the SI unit, and a text has a unit: `"15deg"`, `"24mm"`. Rates, tilts and cylinders keep their unit, so
-//! that proofs start from the numbers as given; other numbers are converted.
+//! The names are those of [`thrown`](crate::thrown). A number is in the SI unit, and a text has a unit: `"15deg"`, `"24mm"`.
+//! Rates, tilts and cylinders keep their unit, so that proofs start from the numbers as given; other numbers, and `turn` with
+//! `wobble`, are converted. A launch without its body has no `turn` and `wobble`.
 //!
 //! | type | as plain data |
 //! |---|---|
@@ -29,13 +30,9 @@
 //! serde_json reads numbers to the last bit only with its feature `float_roundtrip`.
 
 #[cfg(feature = "serde")]
-mod attitude;
-#[cfg(feature = "serde")]
-mod coin;
-#[cfg(feature = "serde")]
-pub(crate) mod launch;
-#[cfg(feature = "serde")]
 mod number;
+#[cfg(feature = "serde")]
+mod parts;
 #[cfg(feature = "serde")]
 pub(crate) mod settings;
 

@@ -10,11 +10,6 @@ use crate::time_of_flight::TimeOfFlight;
 
 /// How the coin leaves the hand. Every number in it is finite, since no constructor makes any other launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::launch::LaunchData", into = "crate::data::launch::LaunchData")
-)]
 pub struct Launch {
     rate: Vector3<f64>,
     /// The rate as it was given, where that was not in rad/s.
@@ -133,6 +128,13 @@ impl Launch {
     /// Attitude at launch.
     pub fn attitude(&self) -> Attitude {
         self.attitude
+    }
+
+    /// The turn about the x axis of LF (rad) by which the launch is tilted, 0 for a horizontal one; `None` for other
+    /// attitudes.
+    pub fn tilt(&self) -> Option<f64> {
+        let horizontal = (self.attitude == Attitude::IDENTITY).then_some(0.0);
+        self.attitude.tilt().map(Angle::radians).or(horizontal)
     }
 
     /// How the time of flight was given.

@@ -10,7 +10,7 @@
 //! | the coin's moments of inertia, from its geometry or by its name | [`coin`], [`catalogue`] |
 //! | any rigid body, by its moments or its inertia tensor, and its toss | [`body`], [`toss`] |
 //! | the toss: coin, body rate, attitude and time of flight | [`launch`], [`mod@time_of_flight`], [`state`] |
-//! | a toss as plain data in a file, many tosses as columns of numbers | [`data`], [`columns`] |
+//! | a toss as somebody gives it, as plain data in a file, many tosses as columns of numbers | [`thrown`], [`data`], [`columns`] |
 //! | Euler's equations and what they conserve; how far a motion turns | [`body_rate`], [`phase`] |
 //! | the attitude as a quaternion and as Euler angles | [`attitude`], [`euler_angles`] |
 //! | heads or tails, and numbers of them | [`outcome`], [`counts`] |
@@ -78,6 +78,7 @@ pub mod scheme;
 pub mod solver;
 pub mod state;
 pub mod stepping;
+pub mod thrown;
 pub mod time_of_flight;
 pub mod toss;
 
@@ -107,5 +108,6 @@ pub use scheme::Scheme;
 pub use solver::{Landing, Solver, Tilt, Work};
 pub use state::State;
 pub use stepping::{StepControl, Stepping};
+pub use thrown::Thrown;
 pub use time_of_flight::TimeOfFlight;
 pub use toss::{CoinToss, Toss};

@@ -2,9 +2,10 @@
 //! units. It holds the one table of units, so that the command line and files of spaces accept the same ones.
 //!
 //! A number without a unit is in the SI unit, which for angles is the radian. Every unit is a rational multiple of the
-//! SI unit, or such a multiple of π.
+//! SI unit, or a rational part of a turn. A unit without a name is written as that number: `3.0@1/7` is 3/7 of the SI unit,
+//! and `3.0@1/7turn` 3/7 of a turn.
 
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 use std::fmt;
 
 use numerics::double_double::{DoubleDouble, two_sum};
@@ -36,15 +37,16 @@ pub enum Dimension {
     Mass,
     /// A moment of inertia, in kg m².
     Inertia,
+    /// A number without a unit.
+    Number,
 }
 
-/// A unit and its name: `numerator`/`denominator` of the SI unit, times π if `has_pi` is set.
+/// A unit and its name, which is empty if it has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedUnit {
     name: &'static str,
-    numerator: u16,
-    denominator: u32,
-    has_pi: bool,
+    /// Its size in the SI unit; of any kind, a rational number of it stands as `Radians`.
+    size: AngleUnit,
 }
 
 /// A number and the unit that it was given in.
@@ -55,11 +57,18 @@ pub struct Given {
 }
 
 const fn unit(name: &'static str, numerator: u16, denominator: u32) -> NamedUnit {
-    NamedUnit { name, numerator, denominator, has_pi: false }
+    NamedUnit { name, size: AngleUnit::Radians(ratio(numerator, denominator)) }
 }
 
-const fn unit_of_pi(name: &'static str, numerator: u16, denominator: u32) -> NamedUnit {
-    NamedUnit { name, numerator, denominator, has_pi: true }
+const fn part_of_turn(name: &'static str, denominator: u32) -> NamedUnit {
+    NamedUnit { name, size: AngleUnit::Turns(ratio(1, denominator)) }
+}
+
+const fn ratio(numerator: u16, denominator: u32) -> Unit {
+    match Unit::ratio(numerator, denominator) {
+        Some(unit) => unit,
+        None => panic!("a unit of the table has a 0 in it"),
+    }
 }
 
 /// What is expected of a quantity, in words, and its units, the first of which is the SI unit.
@@ -67,16 +76,16 @@ type Row = (&'static str, &'static [NamedUnit]);
 
 const ANGLE: Row = (
     "an angle in rad, deg, ° or rev (rad without a unit)",
-    &[unit("rad", 1, 1), unit_of_pi("deg", 1, 180), unit_of_pi("°", 1, 180), unit_of_pi("rev", 2, 1)],
+    &[unit("rad", 1, 1), part_of_turn("deg", 360), part_of_turn("°", 360), part_of_turn("rev", 1)],
 );
 const TURN_RATE: Row = (
     "a rate in rad/s, deg/s, °/s, rev/s or rpm (rad/s without a unit)",
     &[
         unit("rad/s", 1, 1),
-        unit_of_pi("deg/s", 1, 180),
-        unit_of_pi("°/s", 1, 180),
-        unit_of_pi("rev/s", 2, 1),
-        unit_of_pi("rpm", 1, 30),
+        part_of_turn("deg/s", 360),
+        part_of_turn("°/s", 360),
+        part_of_turn("rev/s", 1),
+        part_of_turn("rpm", 60),
     ],
 );
 const SPEED: Row = (
@@ -99,6 +108,18 @@ const INERTIA: Row = (
     "a moment of inertia in kg·m², g·cm² or g·mm² (kg·m² without a unit)",
     &[unit("kg·m²", 1, 1), unit("g·cm²", 1, 10_000_000), unit("g·mm²", 1, 1_000_000_000)],
 );
+const NUMBER: Row = ("a number", &[unit("", 1, 1)]);
+
+/// The size of a unit without a name, such as `@1/7` or `@1/7turn`.
+fn size(text: &str) -> Option<AngleUnit> {
+    let text = text.strip_prefix('@')?;
+    let (ratio, of): (&str, fn(Unit) -> AngleUnit) = match text.strip_suffix("turn") {
+        Some(ratio) => (ratio, AngleUnit::Turns),
+        None => (text, AngleUnit::Radians),
+    };
+    let (numerator, denominator) = ratio.split_once('/')?;
+    Some(of(Unit::ratio(numerator.parse().ok()?, denominator.parse().ok()?)?))
+}
 
 impl NamedUnit {
     /// So many of this unit.
@@ -119,23 +140,22 @@ impl NamedUnit {
             return value;
         }
         let (mantissa, exponent) = mantissa_and_exponent(value);
-        let product = DoubleDouble::product(mantissa, f64::from(self.numerator));
-        // The difference between π and its nearest f64.
-        const REST_OF_PI: f64 = 1.224_646_799_147_353_2e-16;
-        let product = if self.has_pi { product * two_sum(PI, REST_OF_PI) } else { product };
-        let si = product / DoubleDouble::from(f64::from(self.denominator));
+        let (AngleUnit::Radians(ratio) | AngleUnit::Turns(ratio)) = self.size;
+        let product = DoubleDouble::product(mantissa, f64::from(ratio.numerator()));
+        // The difference between 2π and its nearest f64.
+        const REST_OF_TURN: f64 = 2.449_293_598_294_706_4e-16;
+        let product = if self.is_part_of_turn() { product * two_sum(TAU, REST_OF_TURN) } else { product };
+        let si = product / DoubleDouble::from(f64::from(ratio.denominator()));
         si.times_power_of_two(exponent).hi()
     }
 
-    /// The factor to the SI unit, without π.
-    fn ratio(&self, halves: u32) -> Unit {
-        // No unit of the table has a 0 in it.
-        Unit::ratio(self.numerator, self.denominator * halves).unwrap_or(Unit::ONE)
+    /// The unit as one of an angle, or of an angle per second.
+    pub fn angle_unit(&self) -> AngleUnit {
+        self.size
     }
 
-    /// The unit as one of an angle, or of an angle per second. A unit with π is a part of a turn of 2π.
-    pub fn angle_unit(&self) -> AngleUnit {
-        if self.has_pi { AngleUnit::Turns(self.ratio(2)) } else { AngleUnit::Radians(self.ratio(1)) }
+    fn is_part_of_turn(&self) -> bool {
+        matches!(self.size, AngleUnit::Turns(_))
     }
 
     /// Whether `text` names this unit. Blanks, `·`, `*` and `^` between the parts of a unit make no difference, and
@@ -161,27 +181,27 @@ impl Given {
 
     /// Whether [`Given::si`] is the number that was given, without a rounding.
     pub fn is_exact_in_si(self) -> bool {
-        let NamedUnit { numerator, denominator, has_pi, .. } = self.unit;
         let (given, si) = (self.value, self.si());
-        let product = |number: f64, factor: f64| DoubleDouble::product(number, factor);
-        given == 0.0
-            || numerator == 1 && denominator == 1 && !has_pi
-            || !has_pi && product(given, f64::from(numerator)) == product(si, f64::from(denominator))
+        match self.unit.size {
+            _ if given == 0.0 => true,
+            AngleUnit::RADIAN => true,
+            AngleUnit::Radians(ratio) => {
+                let product = |number: f64, factor: f64| DoubleDouble::product(number, factor);
+                product(given, f64::from(ratio.numerator())) == product(si, f64::from(ratio.denominator()))
+            }
+            AngleUnit::Turns(_) => false,
+        }
     }
 
     /// The number as an angle, or as an angle per second. Nothing is rounded.
     pub fn angle(self) -> Angle {
-        self.unit.angle_unit().times(self.value)
+        self.unit.size.times(self.value)
     }
 
-    /// Whether [`Given::quantity`] is this number, which it is of a unit without π.
-    pub fn is_exact_quantity(self) -> bool {
-        !self.unit.has_pi
-    }
-
-    /// The number in the SI unit, of a unit without π. Nothing is rounded.
+    /// The number in the SI unit, of a unit that is not a part of a turn. Nothing is rounded.
     pub fn quantity(self) -> Quantity {
-        Quantity::new(self.value, self.unit.ratio(1))
+        let (AngleUnit::Radians(ratio) | AngleUnit::Turns(ratio)) = self.unit.size;
+        Quantity::new(self.value, ratio)
     }
 
     /// The number in its unit.
@@ -195,10 +215,19 @@ impl Given {
     }
 }
 
-/// Writes the number and its unit, as in `24.26mm`.
+/// Writes the number and its unit, as in `24.26mm`; it is read back as the same number in the same unit.
 impl fmt::Display for Given {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?}{}", self.value, self.unit.name)
+        write!(f, "{:?}{}", self.value, self.unit.name)?;
+        match self.unit {
+            NamedUnit { name: "", size: AngleUnit::Radians(ratio) } if ratio != Unit::ONE => {
+                write!(f, "@{}/{}", ratio.numerator(), ratio.denominator())
+            }
+            NamedUnit { name: "", size: AngleUnit::Turns(ratio) } => {
+                write!(f, "@{}/{}turn", ratio.numerator(), ratio.denominator())
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -213,6 +242,7 @@ impl Dimension {
             Self::Length => LENGTH,
             Self::Mass => MASS,
             Self::Inertia => INERTIA,
+            Self::Number => NUMBER,
         }
     }
 
@@ -227,7 +257,7 @@ impl Dimension {
     }
 
     /// All kinds of quantities.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Angle,
         Self::TurnRate,
         Self::Speed,
@@ -236,11 +266,23 @@ impl Dimension {
         Self::Length,
         Self::Mass,
         Self::Inertia,
+        Self::Number,
     ];
 
     /// `value` in the SI unit.
     pub fn in_si(self, value: f64) -> Given {
         self.units()[0].times(value)
+    }
+
+    /// `value` in a unit of this size, by its name if it has one.
+    pub fn in_unit(self, value: f64, size: AngleUnit) -> Given {
+        let named = self.units().iter().find(|unit| unit.size == size);
+        Given { value, unit: named.copied().unwrap_or(NamedUnit { name: "", size }) }
+    }
+
+    /// `quantity` in its unit.
+    pub fn of_quantity(self, quantity: Quantity) -> Given {
+        self.in_unit(quantity.value(), AngleUnit::Radians(quantity.unit()))
     }
 
     /// Reads a quantity into its SI unit.
@@ -269,8 +311,11 @@ impl Dimension {
         // The longest start of the text that is a number: `1e3` of `1e3m/s`.
         let (value, name) =
             text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
-        let unit = self.units().iter().find(|unit| unit.is_called(name))?;
-        Some((Given { value, unit: *unit }, true))
+        let named = self.units().iter().find(|unit| unit.is_called(name)).map(|unit| unit.times(value));
+        let has_turns = self.units().iter().any(NamedUnit::is_part_of_turn);
+        let sized = || size(name).filter(|size| has_turns || !matches!(size, AngleUnit::Turns(_)));
+        let given = named.or_else(|| sized().map(|size| self.in_unit(value, size)))?;
+        Some((given, true))
     }
 }
 

@@ -52,6 +52,30 @@ impl TimeOfFlight {
         }
     }
 
+    /// The speed v0 (m/s) and gravity g (m/s²) of the throw; `None` for a time that was given itself.
+    pub fn throw(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Ballistic { speed, gravity } | Self::BallisticTo { speed, gravity, .. } => Some([speed, gravity]),
+            Self::Given(_) => None,
+        }
+    }
+
+    /// How far below the launch the throw lands (m), if that was given.
+    pub fn drop(self) -> Option<f64> {
+        if let Self::BallisticTo { drop, .. } = self { Some(drop) } else { None }
+    }
+
+    /// That of the same throw with another speed (m/s); `None` for a time that was given itself.
+    pub fn with_speed(self, speed: f64) -> Option<Self> {
+        self.throw().map(|[_, gravity]| Self::thrown(speed, gravity, self.drop()))
+    }
+
+    /// The speed (m/s) with which the same throw takes the time T > 0 (s), g T/2 - h/T; `None` as in
+    /// [`TimeOfFlight::with_speed`].
+    pub fn speed_of(self, time: f64) -> Option<f64> {
+        self.throw().map(|[_, gravity]| 0.5 * gravity * time - self.drop().unwrap_or(0.0) / time)
+    }
+
     /// T (s).
     #[inline]
     pub fn seconds(&self) -> f64 {

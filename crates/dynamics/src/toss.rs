@@ -8,10 +8,10 @@ use crate::launch::Launch;
 
 /// A body and its launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Toss {
     /// The body. As plain data it is called `coin`; `body` is read too. Without it, it is [`Coin::PAPER`].
-    #[cfg_attr(feature = "serde", serde(rename = "coin", alias = "body", default = "Body::paper"))]
+    #[cfg_attr(feature = "serde", serde(rename = "coin"))]
     pub body: Body,
     /// The launch of the body.
     pub launch: Launch,

@@ -76,6 +76,24 @@ impl Space {
         Ok(space)
     }
 
+    /// The space that consists of `toss` alone.
+    ///
+    /// # Errors
+    /// [`InputError::Malformed`] for a time of flight that does not come from a speed, and for an attitude that is no tilt.
+    pub fn of(toss: &Toss) -> Result<Self, InputError> {
+        let Toss { body, launch } = toss;
+        let other = |field, value, expected| InputError::Malformed { field, value, expected };
+        let flight = launch.time_of_flight();
+        let hand = "a speed in place of the time of flight: a hand spreads in its speed";
+        let of_time = || other("time", format!("{:?}", flight.seconds()), hand);
+        let [speed, gravity] = flight.throw().ok_or_else(of_time)?;
+        let components = || format!("{:?}", launch.attitude().components());
+        let tilt = launch.tilt().ok_or_else(|| other("attitude", components(), "a tilt about the x axis"))?;
+        let [x, y, z] = launch.rate().into();
+        Self::new(*body, [x, y, z, speed, gravity, tilt].map(|value| AxisOrTie::Axis(value.into())))?
+            .with_drop(flight.drop())
+    }
+
     /// The same space for another coin or body.
     #[must_use]
     pub fn with_body(self, body: impl Into<Body>) -> Self {

@@ -2,7 +2,7 @@
 //! numbers after that. [`Rounding`] judges whether it is also the outcome of the numbers as they were typed.
 
 use dynamics::quantity::{Given, common_unit};
-use dynamics::{Body, InputError, Outcome, SolveError, TimeOfFlight, Toss};
+use dynamics::{Body, InputError, Outcome, SolveError, Thrown, TimeOfFlight, Toss};
 use exact::certified::holds_within;
 use exact::{CoinMotion, certify};
 
@@ -47,6 +47,12 @@ impl BodyRounding {
 const RELATIVE: f64 = 4.0 * f64::EPSILON;
 
 impl Rounding {
+    /// What the conversion of `thrown` to a toss rounds.
+    pub fn of(thrown: &Thrown) -> Self {
+        let body = BodyRounding::of(thrown.elements(), |elements| thrown.body_of(&elements));
+        Self { flight: thrown.rounds_flight(), rate: thrown.rounds_rate(), body }
+    }
+
     /// Whether nothing was rounded.
     pub fn is_none(&self) -> bool {
         !self.flight && !self.rate && self.body == BodyRounding::Exact

@@ -171,12 +171,9 @@ struct Thrown {
 impl Thrown {
     /// The throw that takes as long. If only a time is given, it lands at the height that it left from.
     fn new(time_of_flight: TimeOfFlight) -> Self {
-        match time_of_flight {
-            TimeOfFlight::Ballistic { speed, gravity } | TimeOfFlight::BallisticTo { speed, gravity, .. } => {
-                Self { speed, gravity }
-            }
-            TimeOfFlight::Given(time) => Self { speed: 0.5 * DEFAULT_GRAVITY * time, gravity: DEFAULT_GRAVITY },
-        }
+        let level = || [0.5 * DEFAULT_GRAVITY * time_of_flight.seconds(), DEFAULT_GRAVITY];
+        let [speed, gravity] = time_of_flight.throw().unwrap_or_else(level);
+        Self { speed, gravity }
     }
 
     /// The height above the launch (m) at a time after it (s).

@@ -72,7 +72,7 @@ impl Args {
             (Some(counts), _) => Rates::counted(coin, &people(counts)?)?,
             (None, wanted) => Rates::wanted(coin, wanted.unwrap_or(f64::NAN))?,
         };
-        let is_of_a_coin = self.coin.given()?.is_some();
+        let is_of_a_coin = self.coin.given_body()?.is_some();
         Ok(self.format.print(input, &rates, || rates.text(is_of_a_coin)))
     }
 }

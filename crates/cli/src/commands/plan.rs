@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml
     #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
+          conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     space: Option<String>,
     #[arg(long, value_name = "NAME")]
     solver: Option<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["want", "accuracy", "space", "solver", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
-                                "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
+                                "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     scene: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
@@ -66,7 +66,7 @@ impl Args {
     fn scene(&self) -> Result<Scene, Failure> {
         let space = || {
             let missing = || Failure::usage("space", "--space is needed for a probability");
-            space_called(self.space.as_deref().ok_or_else(missing)?, &self.toss.coin)
+            space_called(self.space.as_deref().ok_or_else(missing)?, &self.toss)
         };
         let want = match self.want {
             Some(want) if want != WantKind::Trace && self.points.is_some() => {

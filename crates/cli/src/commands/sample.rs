@@ -7,12 +7,13 @@
 use std::io::{Read, Write};
 
 use csv::StringRecord;
+use dynamics::Thrown;
+use dynamics::thrown::Field;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
 use sampling::{Drawn, Method, Plan, Scrambled, Space};
 use serde::Serialize;
-use toss::quantity::Dimension;
-use toss::{Backend, Body, Error, InputError, Launch, Registry, TimeOfFlight, Toss, Verdict};
+use toss::{Backend, Body, Error, InputError, Registry, Toss, Verdict};
 
 use crate::Streams;
 use crate::failure::Failure;
@@ -33,8 +34,8 @@ const OF_A_SPACE: [&str; 14] = [
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// With - the launches are read from standard input: CSV with a heading, whose columns are wx, wy, wz, speed or time,
-    /// and if wanted gravity, drop and tilt
+    /// With - the launches are read from standard input: CSV with a heading, whose columns are wx, wy, wz or turn and
+    /// wobble, speed or time, and if wanted gravity, drop and tilt
     #[arg(value_name = "-", value_parser = ["-"], conflicts_with_all = OF_A_SPACE)]
     from: Option<String>,
     #[command(flatten)]
@@ -265,16 +266,18 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The columns that describe a launch: heading, field of an error, and kind of quantity.
-const COLUMNS: [(&str, &str, Dimension); 8] = [
-    ("wx", "rate x [rad/s]", Dimension::TurnRate),
-    ("wy", "rate y [rad/s]", Dimension::TurnRate),
-    ("wz", "rate z [rad/s]", Dimension::TurnRate),
-    ("speed", "speed [m/s]", Dimension::Speed),
-    ("time", "time [s]", Dimension::Time),
-    ("gravity", "gravity [m/s²]", Dimension::Acceleration),
-    ("drop", "drop [m]", Dimension::Length),
-    ("tilt", "tilt [rad]", Dimension::Angle),
+/// The columns that describe a launch.
+const COLUMNS: [Field; 10] = [
+    Field::RateX,
+    Field::RateY,
+    Field::RateZ,
+    Field::Turn,
+    Field::Wobble,
+    Field::Speed,
+    Field::Time,
+    Field::Gravity,
+    Field::Drop,
+    Field::Tilt,
 ];
 
 /// The columns of an answer, which may be there and are passed over, so that an output can be read again.
@@ -286,78 +289,65 @@ const ANSWERS: [&str; 4] = ["flight_time", "cos_tilt", "outcome", "certified"];
 /// [`Failure::Text`] for a heading that is unknown, missing or there twice. Each launch has its own errors.
 fn read<R: Read>(text: R, body: Body) -> Result<impl Iterator<Item = Result<Given, Failure>>, Failure> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
-    let headings = reader.headers().map_err(|error| unreadable(&error))?.clone();
-    let places = places(&headings)?;
-    let width = headings.len();
+    let columns = columns(reader.headers().map_err(|error| unreadable(&error))?)?;
     Ok(reader.into_records().map(move |record| {
         let record = record.map_err(|error| unreadable(&error))?;
         let line = record.position().map_or(0, csv::Position::line);
-        launch(&record, &places, body).map_err(|error| {
-            let column = COLUMNS.iter().position(|(_, field, _)| *field == error.field()).and_then(|of| places[of]);
-            at(line, column.unwrap_or(width - 1), error.to_string())
+        launch(&record, &columns, body).map_err(|error| {
+            let is_at_fault = |column: &Option<Field>| {
+                column.is_some_and(|of| [of.info().name, of.info().label].contains(&error.field()))
+            };
+            at(line, columns.iter().position(is_at_fault).unwrap_or(columns.len() - 1), error.to_string())
         })
     }))
 }
 
-/// The name of a column that may also be called as in spaces or as its option.
-fn column_name(heading: &str) -> &str {
-    match heading {
-        "rate_x" | "rate-x" => "wx",
-        "rate_y" | "rate-y" => "wy",
-        "rate_z" | "rate-z" => "wz",
-        other => other,
-    }
-}
-
-/// The place of each of [`COLUMNS`] among the headings.
-fn places(headings: &StringRecord) -> Result<[Option<usize>; 8], Failure> {
-    let known = COLUMNS.map(|(name, ..)| name);
-    let headings: Vec<&str> = headings.iter().map(column_name).collect();
-    for (column, heading) in headings.iter().copied().enumerate() {
-        if !known.contains(&heading) && !ANSWERS.contains(&heading) {
-            return Err(at(1, column, format!("column '{heading}' is unknown; known: {}", known.join(", "))));
+/// The field of each heading; `None` for what is passed over.
+fn columns(headings: &StringRecord) -> Result<Vec<Option<Field>>, Failure> {
+    let mut columns = Vec::new();
+    for (column, heading) in headings.iter().enumerate() {
+        let known = Field::named(heading).ok().filter(|field| COLUMNS.contains(field));
+        if known.is_none() && !ANSWERS.contains(&heading) {
+            let known = COLUMNS.map(|field| field.info().name).join(", ");
+            return Err(at(1, column, format!("column '{heading}' is unknown; known: {known}")));
         }
-        if headings.iter().take(column).any(|other| *other == heading) {
+        let is_twice = if known.is_some() {
+            columns.contains(&known)
+        } else {
+            headings.iter().take(column).any(|other| other == heading)
+        };
+        if is_twice {
+            let heading = known.map_or(heading, |field| field.info().name);
             return Err(at(1, column, format!("column '{heading}' is there twice")));
         }
+        columns.push(known);
     }
-    let places = known.map(|name| headings.iter().position(|heading| *heading == name));
-    let [x, y, z, speed, time, ..] = places;
-    let missing = known.into_iter().zip([x, y, z]).find(|(_, place)| place.is_none()).map(|(name, _)| name);
-    let missing = missing.or_else(|| speed.or(time).is_none().then_some("speed or time"));
-    missing.map_or(Ok(places), |name| Err(at(1, headings.len(), format!("column {name} is missing"))))
+    let lacks = |field: &Field| !columns.contains(&Some(*field));
+    let of_precession = [Field::Turn, Field::Wobble];
+    let axes = [Field::RateX, Field::RateY, Field::RateZ];
+    let rate = if of_precession.iter().all(lacks) { &axes[..] } else { &of_precession };
+    let missing = rate.iter().find(|field| lacks(field)).map(|field| field.info().name);
+    let has_no_time = [Field::Speed, Field::Time].iter().all(lacks);
+    match missing.or(has_no_time.then_some("speed or time")) {
+        Some(name) => Err(at(1, columns.len(), format!("column {name} is missing"))),
+        None => Ok(columns),
+    }
 }
 
-/// The launch in a record.
-fn launch(record: &StringRecord, places: &[Option<usize>; 8], body: Body) -> Result<Given, InputError> {
-    let mut values = [None; 8];
-    for (value, ((_, field, dimension), place)) in values.iter_mut().zip(COLUMNS.iter().zip(places)) {
-        let cell = place.and_then(|place| record.get(place)).filter(|cell| !cell.is_empty());
-        *value = cell.map(|cell| dimension.read(field, cell)).transpose()?;
+/// The launch in a record. Its numbers are converted to SI units, in which they are printed, so that an output that is read
+/// again has the same answers.
+fn launch(record: &StringRecord, columns: &[Option<Field>], body: Body) -> Result<Given, InputError> {
+    let mut thrown = Thrown::default();
+    for (column, cell) in columns.iter().zip(record).filter(|(_, cell)| !cell.is_empty()) {
+        column.map_or(Ok(()), |field| thrown.set(field, cell))?;
     }
-    let [x, y, z, speed, time, gravity, drop, tilt] = values;
-    let missing = |field| InputError::Missing { field, expected: "a number" };
-    let rate = [
-        x.ok_or_else(|| missing("rate x [rad/s]"))?,
-        y.ok_or_else(|| missing("rate y [rad/s]"))?,
-        z.ok_or_else(|| missing("rate z [rad/s]"))?,
-    ];
-    let thrown = gravity.or(drop);
-    let time_of_flight = match (speed, time) {
-        (Some(speed), None) => TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop),
-        (None, Some(time)) if thrown.is_none() => TimeOfFlight::Given(time),
-        (None, None) => {
-            return Err(InputError::Missing { field: "speed [m/s]", expected: "a speed, or a time of flight" });
-        }
-        _ => {
-            let (value, expected) = ("given twice".to_owned(), "a time alone, without speed, gravity and drop");
-            return Err(InputError::Malformed { field: "time [s]", value, expected });
-        }
-    };
-    let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
-    let gravity = speed.map(|_| gravity.unwrap_or(DEFAULT_GRAVITY));
-    let [wx, wy, wz] = rate;
-    let tilt = tilt.unwrap_or(0.0);
+    let thrown = thrown.in_si();
+    let launch = thrown.launch(&body, thrown.time_of_flight()?)?;
+    let si = |field| thrown.one(field).map(dynamics::quantity::Given::si);
+    let [wx, wy, wz] = launch.rate().into();
+    let speed = si(Field::Speed);
+    let gravity = speed.map(|_| si(Field::Gravity).unwrap_or(DEFAULT_GRAVITY));
+    let (time, drop, tilt) = (si(Field::Time), si(Field::Drop), si(Field::Tilt).unwrap_or(0.0));
     let row = Row { wx, wy, wz, speed, time, gravity, drop, tilt, ..Row::default() };
     Ok(Given { row, toss: Toss { body, launch } })
 }

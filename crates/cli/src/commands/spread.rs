@@ -2,13 +2,12 @@
 //! relative spread of the launch with which heads is still as probable, and that of each input alone, and says how finely
 //! smaller spreads were looked at.
 
-use dynamics::quantity::Given;
 use sampling::{
     Coordinate, HAND, Interval, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Scrambled, Space,
     SufficientSpread,
 };
 use serde::Serialize;
-use toss::{Error, Outcome, TimeOfFlight, Toss};
+use toss::{Error, Outcome};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input};
@@ -54,24 +53,9 @@ struct Alone {
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let space = self.space()?;
+        let space = Space::of(&self.toss.toss()?)?;
         let spreads = self.threads.run(|| self.answers(&space))??;
         Ok(self.format.print(input, &spreads, || text(self.heads, &spreads)))
-    }
-
-    /// The space that consists of the toss alone.
-    fn space(&self) -> Result<Space, Failure> {
-        let Toss { body, launch } = self.toss.toss()?;
-        let (speed, gravity, drop) = match launch.time_of_flight() {
-            TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, None),
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, Some(drop)),
-            TimeOfFlight::Given(_) => {
-                return Err(Failure::usage("time", "--time: a hand spreads in its speed, so that --speed is needed"));
-            }
-        };
-        let rate = launch.rate();
-        let space = Space::builder(body).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
-        Ok(space.tilt(self.toss.tilt.map_or(0.0, Given::si)).build()?.with_drop(drop)?)
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.

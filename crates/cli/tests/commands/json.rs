@@ -28,7 +28,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate 2,2,0.5 --speed 3 --moments 1,1",
             "--rate 1,1,2.5 --time 1 --cylinder 1,1,1 --solver gamma --scheme rk4 --step 1e-3 --formulation vertical",
             "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
-            "--rate 1,1,2.5 --time 1 --inertia 2,3,4,0.1,0.2,0.3",
+            "--rate 1,1,2.5 --time 1 --inertia 2,3,4,0.1,0.2,0.3 --attitude 1,0,0.5,0",
             "--coin racket --rate 1,12,3 --speed 3 --margin",
             "--rate 1,1,2.5 --time 1 --solver quaternion --prove",
             "--rate 1,1,2.5 --speed 240cm/s",

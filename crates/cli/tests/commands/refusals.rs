@@ -93,7 +93,7 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
         (
             "a.toml",
             format!("accuracy = 1\n[want.tilt]\n{launch}\ncoin = {{ moments = [1, 1], cylinder = [1, 1, 1] }}"),
-            "line 4, column 8: coin = 'given twice'",
+            "line 4, column 8: cylinder = 'given twice'",
         ),
         (
             "a.toml",
@@ -111,7 +111,7 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
         (
             "a.json",
             json_of(r#"{"coin": {"moments": [1, 1], "cylinder": [1, 1, 1]}}"#),
-            "line 3, column 51: coin = 'given twice'",
+            "line 3, column 51: cylinder = 'given twice'",
         ),
         (
             "a.json",

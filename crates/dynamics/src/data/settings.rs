@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::number::{Number, twice};
+use super::number::Number;
 use crate::config::SolverConfig;
 use crate::error::InputError;
 use crate::formulation::Formulation;
@@ -54,8 +54,12 @@ impl TryFrom<ConfigData> for SolverConfig {
         match (data.tolerance, data.step) {
             (None, None) => Ok(formulated),
             (Some(tolerance), None) => formulated.with_tolerance(tolerance),
-            (None, Some(step)) => formulated.with_step(step.si("step [s]", Dimension::Time)?),
-            (Some(_), Some(_)) => Err(twice("step [s]", "either a tolerance or a step")),
+            (None, Some(Number::Si(step))) => formulated.with_step(step),
+            (None, Some(Number::Text(step))) => formulated.with_step(Dimension::Time.read("step [s]", &step)?),
+            (Some(_), Some(_)) => {
+                let (value, expected) = ("given twice".to_owned(), "either a tolerance or a step");
+                Err(InputError::Malformed { field: "step [s]", value, expected })
+            }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Tests of quantities with units: the table of units, conversions, and what is refused.
 
+use std::f64::consts::PI;
+
 use Dimension::{Acceleration, Angle, Inertia, Length, Mass, Speed, Time, TurnRate};
 
 use super::*;
@@ -22,8 +24,30 @@ fn what_is_expected_names_every_unit() {
             assert!(words.contains(unit.name()), "{words}: {}", unit.name());
         }
         let si = dimension.units()[0];
-        assert!(words.ends_with(&format!("({} without a unit)", si.name())), "{words}");
-        assert_eq!((si.numerator, si.denominator, si.has_pi), (1, 1, false));
+        let is_told = words.ends_with(&format!("({} without a unit)", si.name()));
+        assert!(is_told || dimension == Dimension::Number, "{words}");
+        assert_eq!(si.angle_unit(), AngleUnit::RADIAN);
+    }
+}
+
+#[test]
+fn a_unit_without_a_name_is_written_as_its_size() {
+    let seventh = Unit::ratio(3, 7).unwrap();
+    for (dimension, size, text) in [
+        (TurnRate, AngleUnit::Turns(seventh), "0.1@3/7turn"),
+        (Angle, AngleUnit::Radians(seventh), "0.1@3/7"),
+        (Length, AngleUnit::Radians(seventh), "0.1@3/7"),
+        (Length, AngleUnit::Radians(Unit::ratio(1, 1000).unwrap()), "0.1mm"),
+    ] {
+        let given = dimension.in_unit(0.1, size);
+        assert_eq!((given.to_string().as_str(), dimension.given("x", text)), (text, Ok(given)));
+    }
+    assert_eq!(Length.given("x", "2@1/1"), Length.given("x", "2"));
+    assert_eq!(Length.given("x", "2@1/1000"), Length.given("x", "2mm"));
+    for (dimension, text) in
+        [(Length, "1@3/7turn"), (Length, "1@3/0"), (Angle, "1@0/3turn"), (Angle, "1@3"), (Mass, "1@")]
+    {
+        assert!(dimension.given("x", text).is_err(), "{text}");
     }
 }
 

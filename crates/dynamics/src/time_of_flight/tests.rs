@@ -128,3 +128,17 @@ fn a_compensated_time_has_twice_the_digits_of_f64() {
         assert!((rest - lo).abs() <= within, "{speed:e} {gravity:e}: {rest:e}, not {lo:e}");
     }
 }
+
+#[test]
+fn a_throw_of_another_speed_takes_the_time_of_that_speed() {
+    for (time, at_five) in [
+        (TimeOfFlight::thrown(3.0, 9.81, None), TimeOfFlight::thrown(5.0, 9.81, None)),
+        (TimeOfFlight::thrown(3.0, 9.81, Some(0.3)), TimeOfFlight::thrown(5.0, 9.81, Some(0.3))),
+        (TimeOfFlight::thrown(3.0, 9.81, Some(-0.3)), TimeOfFlight::thrown(5.0, 9.81, Some(-0.3))),
+    ] {
+        assert_eq!((time.throw(), time.with_speed(5.0)), (Some([3.0, 9.81]), Some(at_five)));
+        assert!((time.speed_of(at_five.seconds()).unwrap() - 5.0).abs() < 1e-14, "{time:?}");
+    }
+    let given = TimeOfFlight::Given(1.0);
+    assert_eq!((given.throw(), given.drop(), given.with_speed(5.0), given.speed_of(1.0)), (None, None, None, None));
+}

@@ -92,7 +92,7 @@ fn a_passing_run_ends_with_0_writes_every_report_and_compares_nothing_without_a_
         for field in ["claim", "basis", "measured", "limit", "reserve", "worst_input", "replay"] {
             assert!(!row[field].is_null(), "{field} of {row}");
         }
-        assert!(row["worst_input"].as_str().unwrap().contains("i1="), "{row}");
+        assert!(row["worst_input"].as_str().unwrap().contains("moments="), "{row}");
     }
     assert_eq!((&report["moves"], &report["baseline"]["found"]), (&Value::Array(Vec::new()), &Value::Bool(false)));
     let file = report["baseline"]["file"].as_str().unwrap();
@@ -130,7 +130,7 @@ fn a_row_above_its_limit_ends_the_run_with_1_and_is_printed_with_a_command_that_
             && table.contains(&format!("FAIL: {} of {} rows pass", subjects() - 1, subjects())),
         "{table}"
     );
-    assert!(table.contains("repeat with: cargo xtask verify --replay \"i1="), "{table}");
+    assert!(table.contains("repeat with: cargo xtask verify --replay \"moments="), "{table}");
     let pattern = "Fails: exact, in one check (reference-cos-tilt). Passes: euler, gamma, quaternion.";
     assert!(table.contains(pattern), "{table}");
     for file in ["report.html", "report.json", "summary.md"] {
@@ -189,7 +189,7 @@ fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fai
     assert!(suite.contains("<testcase name=\"gamma/dop853: error\""), "{suite}");
     assert!(suite.contains("<property name=\"accepted\" value=\"1.5e-12\"/>"), "{suite}");
     assert!(suite.contains("message=\"worse than the baseline: error 1.500e-12 → "), "{suite}");
-    assert!(suite.contains("cargo xtask verify --replay &quot;i1="), "{suite}");
+    assert!(suite.contains("cargo xtask verify --replay &quot;moments="), "{suite}");
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn github_gets_annotations_after_the_text_and_a_summary_that_is_appended() {
     let table = &ran.stdout;
     let last = table.lines().last().unwrap();
     assert!(last.starts_with("::warning title=reference-cos-tilt / gamma/dop853::Worse than the baseline"), "{table}");
-    assert!(last.contains("%0ARepeat with: cargo xtask verify --replay \"i1="), "{last}");
+    assert!(last.contains("%0ARepeat with: cargo xtask verify --replay \"moments="), "{last}");
     assert!(table.contains(&format!("PASS: {0} of {0} rows pass", subjects())), "{table}");
     let text = std::fs::read_to_string(&summary).unwrap();
     assert_eq!(text, format!("what another step wrote\n{}", ran.file("summary.md")));
@@ -274,7 +274,7 @@ fn bad_usage_ends_with_2_and_unreadable_limits_end_with_4() {
         ["run", "--time-factor", "0"],
         ["bench", "--bless", "--bless"],
         ["bench", "--instructions", "--to=1e-6"],
-        ["--replay", "i1=nonsense", "--verbose"],
+        ["--replay", "moments=nonsense", "--verbose"],
         ["figure", "ladder", "--svg=x"],
     ] {
         let output = run(&arguments, &validation(), out.path());
@@ -290,7 +290,7 @@ fn bad_usage_ends_with_2_and_unreadable_limits_end_with_4() {
 }
 
 /// A flight on which the precession turns back (α' = 0).
-const LINE: &str = "i1=2 i3=1 rate=0.3,0.3,5 tilt=1 time=5";
+const LINE: &str = "moments=2,1 rate=0.3,0.3,5 tilt=1 time=5";
 
 #[test]
 fn a_worst_input_is_replayed_by_every_contestant() {
@@ -319,9 +319,9 @@ fn a_worst_input_is_replayed_by_every_contestant() {
         assert!(text.contains(&format!(" {unit}, limit ")) && text.contains("\npass"), "{text}");
     }
     assert_eq!(as_row("grid-counts / grid").0, Some(4), "of many launches");
-    let output = run(&["--replay", "i1=nonsense"], &validation(), Path::new("unused"));
+    let output = run(&["--replay", "moments=nonsense"], &validation(), Path::new("unused"));
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("i1: 'nonsense' is no number"));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("moments = 'nonsense' can't be used"));
 }
 
 #[test]
