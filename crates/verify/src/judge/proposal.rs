@@ -50,10 +50,10 @@ mod tests {
     use super::*;
     use crate::judge::judge;
     use crate::judge::limits::Limits;
-    use crate::measure::check::Check;
-    use crate::measure::measurement::Measurement;
+    use crate::measure::check::{Check, Measure};
+    use crate::measure::trial::Measurement;
 
-    const CHECK: Check = Check { id: "c", ceiling: 10.0, ..Check::OF_SOLVERS };
+    const CHECK: Check = Check::of_solvers("c", Measure::Own(|_| Ok(Vec::new()))).up_to(10.0, "1");
 
     #[test]
     fn a_limit_is_twice_the_deviation_rounded_up_to_one_digit() {

@@ -9,8 +9,8 @@ use serde::Serialize;
 use super::limits::Limits;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::effort::Effort;
-use crate::measure::measurement::{Claim, Measurement, Worst};
 use crate::measure::replay::{Commands, Replay};
+use crate::measure::trial::{Claim, Measurement, Worst};
 
 /// A limit that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
 use toss::{Attitude, Coin, InputError, Launch, TimeOfFlight, Vector3};
 
+use crate::measure::effort::Effort;
 use crate::measure::reference::Reference;
 use crate::measure::tosses::throw;
 
@@ -238,9 +239,21 @@ fn turned_tensor(numbers: &mut Numbers, moments: [f64; 3]) -> Result<Body, Input
     Body::from_inertia([xx, yy, zz, xy, xz, yz])
 }
 
-/// Tosses of a hard family, which turn by 1 to 30 rad at rates from 1e-3 to 1e3 in their units.
-pub(super) fn hard_tosses(family: &HardFamily, number: u64) -> Vec<Toss> {
-    (0..number).filter_map(|index| hard_toss(family, index, None)).collect()
+impl HardFamily {
+    /// Tosses of the family, which turn by 1 to 30 rad at rates from 1e-3 to 1e3 in their units.
+    pub(super) fn tosses(&self, number: u64) -> Vec<Toss> {
+        (0..number).filter_map(|index| hard_toss(self, index, None)).collect()
+    }
+}
+
+/// How many tosses of each hard family there are.
+pub(super) fn hard_number(effort: Effort) -> u64 {
+    effort.of([12, 60, 1500])
+}
+
+/// The tosses of each hard family.
+pub(super) fn hard_tosses(effort: Effort) -> Vec<Vec<Toss>> {
+    HARD.iter().map(|family| family.tosses(hard_number(effort))).collect()
 }
 
 /// Toss number `index` of a hard family, which turns by `phase` (rad), or by 1 to 30 rad.

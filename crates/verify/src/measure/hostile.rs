@@ -33,54 +33,34 @@ pub(super) struct Flight {
     pub(super) by: Subject,
 }
 
-/// How many flights of coins each solver and scheme makes, and of each family of bodies; and the most steps of nearly all
-/// of them.
-pub(super) fn numbers(effort: Effort) -> ([u64; 2], f64) {
-    match effort {
-        Effort::Quick => ([40, 3], 2e4),
-        Effort::Standard => ([150, 12], 5e4),
-        // 100 000 of the solvers and schemes of this workspace.
-        Effort::Deep => ([6000, 820], 1e5),
-    }
-}
-
 /// One flight in a hundred takes up to so many steps, which is as many as the schemes of this workspace take.
 const MOST_STEPS: f64 = 9e5;
-
-/// The most steps of flight number `index`.
-fn most_steps(index: u64, of_most: f64) -> f64 {
-    if index % 100 == 99 { MOST_STEPS } else { of_most }
-}
 
 /// The random numbers for the flight `index` of a kind.
 fn stream(kind: u64, index: u64) -> ChaCha8Rng {
     super::tosses::stream(SEED + kind, index)
 }
 
-/// Flight number `index` of a coin by a solver and its `scheme`, most of them in about so many `steps` or fewer.
+/// The flights of a solver and its `scheme`: of coins and of each family of bodies.
 ///
 /// # Errors
 /// If the scheme takes neither a tolerance nor steps.
-pub(super) fn of_coin(entry: &SolverEntry, scheme: Scheme, index: u64, steps: f64) -> Result<Flight, InputError> {
-    let mut rng = stream(0, index);
-    let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps(index, steps), &mut rng);
-    let toss = coin(&mut rng, phase);
-    Ok(Flight { toss: toss.into(), by: settings.subject(entry, toss.launch.turn_rate())? })
-}
-
-/// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
-pub(super) fn of_body(
-    entry: &SolverEntry,
-    scheme: Scheme,
-    [family, index]: [u64; 2],
-    steps: f64,
-) -> Result<Option<Flight>, InputError> {
-    let mut rng = stream(1 + family, index);
-    let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps(index, steps), &mut rng);
-    let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
-    Ok(Some(Flight { toss, by: settings.subject(entry, toss.launch.turn_rate())? }))
+pub(super) fn flights(entry: &SolverEntry, scheme: Scheme, effort: Effort) -> Result<Vec<Flight>, InputError> {
+    // The last ones are 100 000 of the solvers and schemes of this workspace.
+    let (coins, bodies, most_steps) = effort.of([(40, 3, 2e4), (150, 12, 5e4), (6000, 820, 1e5)]);
+    let flight = |kind: u64, index: u64, toss: &dyn Fn(&mut ChaCha8Rng, f64) -> Option<Toss>| {
+        let mut rng = stream(kind, index);
+        let settings = Settings::drawn(scheme, &mut rng);
+        let phase = settings.phase(if index % 100 == 99 { MOST_STEPS } else { most_steps }, &mut rng);
+        let toss = toss(&mut rng, phase)?;
+        Some(settings.subject(entry, toss.launch.turn_rate()).map(|by| Flight { toss, by }))
+    };
+    let coins = (0..coins).filter_map(|index| flight(0, index, &|rng, phase| Some(coin(rng, phase).into())));
+    let of_bodies = (0..bodies).flat_map(|index| (1..).zip(&FAMILIES).map(move |(kind, family)| (kind, family, index)));
+    // A family may have no such body.
+    let bodies =
+        of_bodies.filter_map(|(kind, family, index)| flight(kind, index, &|_, phase| flown_for(family, index, phase)));
+    coins.chain(bodies).collect()
 }
 
 /// `entry` with its `scheme`, by turns at the finest tolerance and at one between that and 1e-6, for `toss`.

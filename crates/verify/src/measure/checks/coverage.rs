@@ -15,21 +15,19 @@ use sampling::{Axis, Coordinate, Plan, Rest, Sampler, Scrambled, Space, clopper_
 use toss::{Body, Coin};
 
 use super::probability::in_the_box_of_four;
-use crate::measure::check::{Basis, Check, Measure};
+use crate::measure::check::Basis::CrossMethod;
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
-use crate::measure::measurement::Measurement;
 use crate::measure::reference::outside::ReferenceProbabilities;
+use crate::measure::trial::Measurement;
 
-pub(super) const COVERAGE: Check = Check {
-    id: "interval-coverage",
-    claim: "At least 94 % of the intervals for P(heads) at the 95 % level contain it, for each method, number of \
-            coordinates, number of launches and range of probabilities, and in all sums of these. Measured: how far a \
-            fraction is below 0.94 beyond chance, of which a fraction of 0.94 has 1e-7; any shortfall fails.",
-    basis: Basis::CrossMethod,
-    measure: Measure::Own(coverage),
-    ..Check::OF_LIBRARY
-};
+pub(super) const CHECKS: &[Check] = &[Check::of_library("interval-coverage", Own(coverage)).by(CrossMethod).claims(
+    "At least 94 % of the intervals for P(heads) at the 95 % level contain it, for each method, number of \
+     coordinates, number of launches and range of probabilities, and in all sums of these. Measured: how far a \
+     fraction is below 0.94 beyond chance, of which a fraction of 0.94 has 1e-7; any shortfall fails.",
+)];
 
 /// The least fraction of intervals that have to contain the probability.
 const LEAST: f64 = 0.94;
@@ -73,6 +71,7 @@ impl Method {
 
 /// How much is tried: spaces for each method, number of coordinates and range of probabilities; seeds for each space;
 /// numbers of launches; and the launches from which the probability is known.
+#[derive(Clone, Copy)]
 struct Extent {
     spaces: usize,
     seeds: u64,
@@ -83,11 +82,9 @@ struct Extent {
 impl Extent {
     fn of(effort: Effort) -> Self {
         const POINTS: [u64; 4] = [64, 1000, 4096, 65_536];
-        match effort {
-            Effort::Quick => Self { spaces: 1, seeds: 12, points: &POINTS[..3], truth: 1 << 17 },
-            Effort::Standard => Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 },
-            Effort::Deep => Self { spaces: 6, seeds: 25, points: &POINTS, truth: 1 << 20 },
-        }
+        let standard = Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 };
+        let quick = Self { seeds: 12, points: &POINTS[..3], truth: 1 << 17, ..standard };
+        effort.of([quick, standard, Self { spaces: 6, truth: 1 << 20, ..standard }])
     }
 }
 
