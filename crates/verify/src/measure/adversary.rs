@@ -16,9 +16,7 @@ use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{
-    Coin, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3,
-};
+use toss::{Coin, CoinMotion, CoinToss, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::case;
 use super::context::Context;
@@ -26,7 +24,7 @@ use super::reference::Reference;
 use super::replay::Replay;
 use super::run::{Answer, Run};
 use super::subject::{Subject, by_scheme};
-use super::tosses::{decades, one, stream, throw};
+use super::tosses::{decades, one, stream, throw, tossed};
 use super::trial::{Measurement, Worst};
 
 const SEED: u64 = 20_261_121;
@@ -50,18 +48,12 @@ pub(crate) struct Answers {
 }
 
 /// Tries adversarial launches with every solver of the registry, each integrator by every scheme.
-///
-/// # Errors
-/// If a scheme takes neither a tolerance nor steps.
 pub(super) fn search(context: &Context) -> anyhow::Result<Vec<Answers>> {
     let launches = context.effort.of([2000, 10_000, 200_000]);
     search_among(context, &(0..launches).map(|index| launch(SEED, index)).collect::<Vec<_>>())
 }
 
 /// The same with `tosses`, each of which has a reference.
-///
-/// # Errors
-/// Those of [`search`], and if a toss has no reference.
 pub(super) fn search_among(context: &Context, tosses: &[Toss]) -> anyhow::Result<Vec<Answers>> {
     let contestants: Vec<_> = context.registry.iter().flat_map(by_scheme).collect();
     let exact: Vec<_> = tosses.par_iter().map(|toss| context.exact.of(toss)).collect();
@@ -128,14 +120,13 @@ fn drawn(rng: &mut ChaCha8Rng, index: usize) -> Result<CoinToss, InputError> {
     if is_slow(index) && rate.amax() > 0.0 {
         rate = rate / rate.amax() * decades(rng, -9.0, -3.0);
     }
-    let still = CoinToss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
-    let motion = CoinMotion::new(&still);
+    let motion = CoinMotion::new(&tossed(coin, rate, TimeOfFlight::Given(0.0), 0.0)?);
     let tilt = tilt(rng, motion.cone_angle());
     let time = time(rng, &motion, &rate);
-    let launch = Launch::new(rate, throw(TimeOfFlight::Given(time), index as u64))?.with_tilt(tilt)?;
     // The motion depends on the ratio of the moments alone, whatever their size (kg m²).
     let i1 = decades(rng, -12.0, 3.0);
-    Ok(CoinToss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch })
+    let coin = Coin::from_moments(i1, (k * i1).min(2.0 * i1))?;
+    tossed(coin, rate, throw(TimeOfFlight::Given(time), index as u64), tilt)
 }
 
 /// Whether launch number `index` is a slow one.

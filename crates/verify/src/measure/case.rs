@@ -130,16 +130,10 @@ pub fn read_with_settings(text: &str) -> anyhow::Result<(Toss, Option<StepContro
     Ok((Toss { body, launch: Launch::in_unit(rate, unit, flight)?.with_attitude(attitude) }, control))
 }
 
-/// The angle of the turn about the laboratory's x axis (rad) by which the launch is tilted; `None` for other attitudes.
-pub(crate) fn tilt(launch: &Launch) -> Option<f64> {
-    let attitude = launch.attitude();
-    let horizontal = (attitude == Attitude::IDENTITY).then_some(0.0);
-    attitude.tilt().map(Angle::radians).or(horizontal)
-}
-
 /// Whether the launch is horizontal, with heads up.
 pub(crate) fn is_horizontal(launch: &Launch) -> bool {
-    tilt(launch) == Some(0.0)
+    let attitude = launch.attitude();
+    attitude.tilt().map_or(attitude == Attitude::IDENTITY, |tilt| tilt.radians() == 0.0)
 }
 
 fn list(numbers: &[f64]) -> String {

@@ -10,6 +10,7 @@ use serde::Serialize;
 use toss::{CoinToss, Landing, SolveError};
 
 use crate::measure::context::Context;
+use crate::measure::families::Family;
 use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
@@ -116,6 +117,17 @@ impl Set {
         deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
         Self { subject: subject.into(), of_coins: false, tosses: Box::new(tosses), deviation: Box::new(deviation) }
+    }
+
+    /// A set for each of `families`, in the row of its name, of the tosses that `tosses` makes of it.
+    pub(super) fn of_families(
+        families: &'static [Family],
+        tosses: fn(&'static Family, &Context) -> Vec<Toss>,
+        deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static,
+    ) -> Vec<Self> {
+        let set =
+            |family: &'static Family| Self::new(family.name, move |context| Ok(tosses(family, context)), deviation);
+        families.iter().map(set).collect()
     }
 
     /// The tosses of coins that `tosses` makes, on which alone the deviation is taken.

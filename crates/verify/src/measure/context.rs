@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use anyhow::{Context as _, ensure};
 use dynamics::Toss;
 use sampling::RunningStep;
+use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use toss::SolverEntry;
 
@@ -30,60 +31,44 @@ use crate::measure::work_precision::{Sweep, YARDSTICK};
 
 /// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
 /// behind some of its rows, each null if no check needed it.
-#[derive(Serialize)]
 pub struct Context {
     /// How many cases are tried.
-    #[serde(skip)]
     pub effort: Effort,
     /// The solvers under verification.
-    #[serde(skip)]
     pub registry: Vec<SolverEntry>,
     /// These solvers with each of their schemes at tight settings.
-    #[serde(skip)]
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
-    #[serde(skip)]
     pub(crate) data: ReferenceData,
     /// Reference probabilities from outside the workspace.
-    #[serde(skip)]
     pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
-    #[serde(skip)]
     pub(crate) coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
-    #[serde(skip)]
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
-    #[serde(skip)]
     pub(crate) expected: Expected,
     /// The exact landings that checks have asked for.
-    #[serde(skip)]
     pub exact: ExactLandings,
     /// The landings of every subject from random launches.
-    #[serde(skip)]
     pub survey: Shared<Survey>,
     /// The landings of bodies by every subject.
-    #[serde(skip)]
     pub bodies: Shared<Survey>,
     /// Tosses of the hard families within 3 ulp of a time at which their outcome changes.
-    #[serde(skip)]
     pub(crate) hard_edges: Shared<Vec<Vec<Toss>>>,
     /// The landings of the hard families by every subject.
-    #[serde(skip)]
     pub(crate) hard: Shared<Survey>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
     /// The long flights.
     pub long_flights: Shared<LongFlights>,
     /// The answers to the launches chosen to break solvers.
-    #[serde(skip)]
     pub(crate) search: Shared<Vec<Answers>>,
     /// The sweep of tolerances and steps.
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     /// Random scenes, solved as planned.
-    #[serde(skip)]
     pub(crate) scenes: Shared<Vec<Planned>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
@@ -118,9 +103,15 @@ impl<T> Shared<T> {
     }
 }
 
-impl<T: Serialize> Serialize for Shared<T> {
+impl Serialize for Context {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.found().serialize(to)
+        let mut records = to.serialize_struct("Context", 5)?;
+        records.serialize_field("atlas", &self.atlas.found())?;
+        records.serialize_field("long_flights", &self.long_flights.found())?;
+        records.serialize_field("sweep", &self.sweep.found())?;
+        records.serialize_field("convergence", &self.convergence.found())?;
+        records.serialize_field("fig4", &self.fig4.found())?;
+        records.end()
     }
 }
 
@@ -166,9 +157,6 @@ impl Context {
 }
 
 /// Checks that no two solvers share a name, because their rows could not be told apart.
-///
-/// # Errors
-/// If two solvers have the same name, or one that of the [`YARDSTICK`].
 fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     let mut names = BTreeSet::new();
     for entry in registry {

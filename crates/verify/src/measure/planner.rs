@@ -22,7 +22,7 @@ use toss::{
 use crate::measure::case;
 use crate::measure::context::Context;
 use crate::measure::reference::Reference;
-use crate::measure::tosses::{decades, stream};
+use crate::measure::tosses::{decades, level_or_tilted, stream, tossed};
 
 /// Seed of the scenes.
 const SEED: u64 = 12;
@@ -71,9 +71,6 @@ impl Planned {
 }
 
 /// Solves a number of random scenes that depends on the effort.
-///
-/// # Errors
-/// If a scene cannot be solved, except because its accuracy is out of reach or the integrator does not solve its toss.
 pub(super) fn random_scenes(context: &Context) -> anyhow::Result<Vec<Planned>> {
     let (tosses, spaces) = context.effort.of([(1000, 6), (10_000, 24), (10_000, 100)]);
     let tosses = (0..tosses).into_par_iter().map(|index| solve(&toss_scene(SEED, index)?));
@@ -177,14 +174,14 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
         1 => Vector3::new(0.1 * any.x, 0.1 * any.y, any.z),
         _ => any,
     };
-    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..PI) };
+    let tilt = level_or_tilted(rng, PI);
     let (speed, gravity) = (rng.random_range(1.0..6.0), 9.81);
     let time = match rng.random_range(0..6) {
         0 => TimeOfFlight::thrown(speed, gravity, Some(rng.random_range(-0.9..1.5) * speed * speed / (2.0 * gravity))),
         1 => TimeOfFlight::Given(decades(rng, -2.0, 1.0)),
         _ => TimeOfFlight::thrown(speed, gravity, None),
     };
-    Ok(CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? })
+    tossed(coin, rate, time, tilt)
 }
 
 /// A toss that differs from `toss` by up to 1 % in each rate and in time. Its errors are of the same size on average,
@@ -256,9 +253,6 @@ struct Truth {
 
 impl Truth {
     /// Solves `toss`.
-    ///
-    /// # Errors
-    /// [`SolveError`] if there is no reference of it.
     fn new(toss: &Toss) -> Result<Self, SolveError> {
         Ok(Self { landing: Reference::of(toss)?, toss: *toss })
     }
@@ -329,7 +323,7 @@ fn share_by_intervals(space: &Space) -> Result<f64, Error> {
     let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
     let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
     let coin = space.coin().ok_or(NO_COIN)?;
-    let toss = CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let toss = tossed(coin, rate, time, value(Coordinate::Tilt))?;
     let intervals = level_speeds_of_heads(&toss, slowest)?;
     let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
     Ok(length / (fastest - slowest))

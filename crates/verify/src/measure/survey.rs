@@ -9,14 +9,14 @@ use dynamics::Toss;
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
-use toss::{Coin, CoinToss, Landing, Launch, SolveError};
+use toss::{Coin, CoinToss, Landing, SolveError};
 
 use crate::measure::context::Context;
 use crate::measure::exact_landings::ExactLandings;
-use crate::measure::families::{FAMILIES, TOSSED, launches};
+use crate::measure::families::{FAMILIES, Family, TOSSED, launches};
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
-use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw};
+use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw, tossed};
 
 /// Seed of the random launches; its value has no meaning.
 const SEED: u64 = 20_260_101;
@@ -51,7 +51,8 @@ impl Survey {
     /// Solves tosses of bodies of every family with every subject.
     pub(crate) fn of_bodies(context: &Context) -> Self {
         let number = context.effort.of([20, 100, 15_000]);
-        let of_family = |family| launches(family, number, TOSSED).map(move |toss| (toss, family.name));
+        let of_family =
+            |family: &'static Family| launches(family, number, TOSSED).into_iter().map(move |toss| (toss, family.name));
         let (tosses, families) = FAMILIES.iter().flat_map(of_family).unzip();
         Self::of(&context.subjects, tosses, families, &context.exact)
     }
@@ -87,8 +88,7 @@ pub(super) fn random_launches(launches: u64) -> anyhow::Result<Vec<Toss>> {
         let tilt = if turn % 4 >= 2 { PI * evenly(turn, GOLDEN) } else { 0.0 };
         let slower = if turn % 25 == 24 { 10f64.powf(-10.0 + 5.0 * evenly(turn, SQRT_3)) } else { 1.0 };
         let flight = throw(drawn.launch.time_of_flight(), turn);
-        let launch = Launch::new(drawn.launch.rate() * slower, flight)?.with_tilt(tilt)?;
-        Ok(CoinToss { coin: coin(turn)?, launch }.into())
+        Ok(tossed(coin(turn)?, drawn.launch.rate() * slower, flight, tilt)?.into())
     };
     (0..).zip(random_flights(&space, SEED, launches)?).map(vary).collect()
 }

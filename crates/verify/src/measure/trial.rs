@@ -280,3 +280,57 @@ impl Claim {
 fn part(measured: f64, allowed: f64) -> f64 {
     if measured == 0.0 { 0.0 } else { measured / allowed }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::adversary;
+
+    /// Trials of one subject, each on a toss of its own.
+    fn trials(by: &Subject, found: impl IntoIterator<Item = (Deviation, Option<f64>)>) -> Vec<Trial<'_>> {
+        let trial = |(index, (deviation, allowed)): (usize, (Deviation, _))| {
+            Trial::by(by, &adversary::launch(3, index), deviation.map(|deviation| (deviation, allowed)))
+        };
+        found.into_iter().enumerate().map(trial).collect()
+    }
+
+    #[test]
+    fn a_fold_takes_the_worst_of_its_trials_and_a_failure_is_worse_than_any_number() {
+        let (by, failure) = (Subject::exact(), || Err(SolveError::NotFinite { time: 0.0 }));
+        let text = |index| case::text(&adversary::launch(3, index));
+        let measured = |fold: Fold, all: &[Deviation]| {
+            let found = fold.of("s", &trials(&by, all.iter().map(|one| (one.clone(), Some(1.0)))));
+            let worst = found.worst.clone().expect("a worst case");
+            (found.measured, worst.input, worst.failure.is_some())
+        };
+        let some = [Ok(0.0), Ok(3.0), Ok(-4.0), Ok(3.0)];
+        assert_eq!(measured(Fold::Largest, &some), (3.0, text(1), false), "the first of the largest");
+        assert_eq!(measured(Fold::Count, &some), (3.0, text(1), false));
+        assert_eq!(measured(Fold::Share, &some), (0.75, text(1), false));
+        assert_eq!(measured(Fold::Mean, &some).0, 0.5);
+        assert_eq!(measured(Fold::Median, &some).0, 3.0);
+        for fold in [Fold::Largest, Fold::Count, Fold::Share] {
+            assert_eq!(measured(fold, &[Ok(1.0), failure(), Ok(2.0)]), (f64::INFINITY, text(1), true), "{fold:?}");
+        }
+        assert_eq!(measured(Fold::Largest, &[Ok(1.0), Ok(f64::NAN)]), (f64::INFINITY, text(1), true));
+        assert_eq!(Fold::Largest.of("s", &[]).measured, f64::INFINITY, "nothing was tried");
+    }
+
+    #[test]
+    fn a_claim_is_that_of_the_trial_which_is_largest_beside_it() {
+        let by = Subject::exact();
+        let claim = |all: &[(Deviation, Option<f64>)]| match Fold::Largest.of("s", &trials(&by, all.to_vec())).claim {
+            Claim::Allows { measured, allowed, .. } => Some((measured, allowed)),
+            other => {
+                assert_eq!(other, Claim::NoEstimate);
+                None
+            }
+        };
+        assert_eq!(claim(&[(Ok(1.0), Some(1e3)), (Ok(1e-3), Some(1e-2))]), Some((1e-3, 1e-2)));
+        assert_eq!(claim(&[(Ok(1.0), Some(1e3)), (Ok(0.0), None)]), None);
+        let failed = (Err(SolveError::NotFinite { time: 0.0 }), None);
+        assert_eq!(claim(&[(Ok(1.0), Some(1e3)), failed]), Some((f64::INFINITY, 0.0)));
+        let library = Trial::of_library(&adversary::launch(3, 0), Ok(1.0));
+        assert_eq!(Fold::Largest.of("s", &[library]).claim, Claim::NoSolver);
+    }
+}

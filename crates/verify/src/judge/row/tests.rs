@@ -3,6 +3,7 @@
 use super::*;
 use crate::measure::check::Measure;
 use crate::measure::replay::Replay;
+use crate::measure::trial::Worst;
 
 const CHECK: Check = Check::of_solvers("c", Measure::Own(|_| Ok(Vec::new()))).up_to(1e-3, "1");
 

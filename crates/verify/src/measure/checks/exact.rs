@@ -321,11 +321,7 @@ fn mean_errors() -> Vec<Set> {
 
 /// A set of long flights for each family of bodies.
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let set = |family: &'static Family| {
-        let tosses = |context: &Context| Ok(launches(family, tries(context.effort) / 20, LONG).collect());
-        Set::new(family.name, tosses, deviation)
-    };
-    FAMILIES.iter().map(set).collect()
+    Set::of_families(&FAMILIES, |family, context| launches(family, tries(context.effort) / 20, LONG), deviation)
 }
 
 /// Errors of cos θ.
@@ -343,16 +339,13 @@ fn rigid_attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
 }
 
 fn at_edges() -> Vec<Set> {
-    let set = |family: &'static Family| {
-        let tosses = move |context: &Context| {
-            Ok(launches(family, tries(context.effort) / 20, LONG).filter_map(|toss| at_an_edge(&toss)).collect())
-        };
-        // A toss without a proof is undecided.
-        Set::new(family.name, tosses, |toss, reference| {
-            Ok(f64::from(!certify(toss).is_ok_and(|found| found.outcome() == reference.outcome())))
-        })
+    let tosses = |family: &'static Family, context: &Context| {
+        launches(family, tries(context.effort) / 20, LONG).iter().filter_map(at_an_edge).collect()
     };
-    FAMILIES.iter().map(set).collect()
+    // A toss without a proof is undecided.
+    Set::of_families(&FAMILIES, tosses, |toss, reference| {
+        Ok(f64::from(!certify(toss).is_ok_and(|found| found.outcome() == reference.outcome())))
+    })
 }
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if

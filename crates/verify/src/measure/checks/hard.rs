@@ -17,7 +17,7 @@ use crate::measure::check::Measure::{Own, Tosses};
 use crate::measure::check::{Allowed, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::families::{
-    FAMILIES, Family, HARD, HardFamily, TOSSED, hard_number, hard_toss, hard_tosses, launches,
+    FAMILIES, Family, HARD, TOSSED, hard_number, hard_toss, hard_tosses, hard_tosses_of, launches,
 };
 use crate::measure::hostile;
 use crate::measure::reference::Reference;
@@ -92,16 +92,13 @@ fn closed_forms() -> Vec<Set> {
         None => Ok(0.0),
     };
     let number = |context: &Context| hard_number(context.effort) / 4;
-    let of_family = |family: &'static Family| {
-        let tosses = move |context: &Context| Ok(launches(family, number(context), TOSSED).collect());
-        Set::new(family.name, tosses, angle)
-    };
     let coins = move |context: &Context| {
         let adversarial = (0..4 * number(context) as usize).map(|index| adversary::launch(8, index));
         let random = random(number(context), 100.0, 81)?.into_iter().map(Toss::from);
         Ok(random.chain(adversarial).filter(|toss| Reference::flown(toss).is_ok()).collect())
     };
-    FAMILIES.iter().map(of_family).chain([Set::new("coins", coins, angle)]).collect()
+    let bodies = |family: &'static Family, context: &Context| launches(family, hard_number(context.effort) / 4, TOSSED);
+    Set::of_families(&FAMILIES, bodies, angle).into_iter().chain([Set::new("coins", coins, angle)]).collect()
 }
 
 fn attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
@@ -112,15 +109,12 @@ fn attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
 
 /// A set of each family.
 fn of_families(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let set = |family: &'static HardFamily| {
-        Set::new(family.name, |context| Ok(family.tosses(hard_number(context.effort))), deviation)
-    };
-    HARD.iter().map(set).collect()
+    Set::of_families(&HARD, |family, context| hard_tosses_of(family, hard_number(context.effort)), deviation)
 }
 
 /// The same, and for each family the same tosses within 3 ulp of a change of the outcome.
 fn with_edges(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let at_edges = |(index, family): (usize, &HardFamily)| {
+    let at_edges = |(index, family): (usize, &Family)| {
         let tosses = move |context: &Context| Ok(context.hard_edges.get(context)?[index].clone());
         Set::new(format!("{}, at an edge", family.name), tosses, deviation)
     };

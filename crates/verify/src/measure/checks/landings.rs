@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use dynamics::phase::RoughPhases;
-use toss::{CoinMotion, CoinToss, Formulation, Landing, Launch, SolveError, State, TimeOfFlight, Toss};
+use toss::{CoinMotion, CoinToss, Formulation, Landing, Launch, State, TimeOfFlight, Toss};
 
 use crate::measure::case::is_horizontal;
 use crate::measure::check::Basis::{CrossMethod, Invariant};
@@ -150,8 +150,9 @@ fn pair(survey: &Survey, one: (&Subject, &Landings), other: (&Subject, &Landings
     let allowed = |subject: &Subject, toss: &Toss, landing: &Landing| {
         Some(Allowance::new(subject, toss, landing.error)?.attitude)
     };
-    let trial = |(toss, (a, b)): (&Toss, (&Result<Landing, SolveError>, &Result<Landing, SolveError>))| {
-        let found = match (a, b) {
+    let trial = |index: usize| {
+        let toss = &survey.tosses[index];
+        let found = match (&one.1[index], &other.1[index]) {
             (Ok(a), Ok(b)) => {
                 // The two errors may add up, so the difference may be as large as the sum of both allowances.
                 let both = allowed(one.0, toss, a).zip(allowed(other.0, toss, b));
@@ -161,7 +162,7 @@ fn pair(survey: &Survey, one: (&Subject, &Landings), other: (&Subject, &Landings
         };
         Trial::by(other.0, toss, found)
     };
-    let trials: Vec<Trial<'_>> = survey.tosses.iter().zip(one.1.iter().zip(other.1)).map(trial).collect();
+    let trials: Vec<Trial<'_>> = (0..survey.tosses.len()).map(trial).collect();
     Fold::Largest.of(&format!("{} ~ {}", one.0.entry.name(), other.0.name), &trials)
 }
 

@@ -14,7 +14,7 @@ use crate::measure::check::Fold::Largest;
 use crate::measure::check::Measure::Tosses;
 use crate::measure::check::{Check, Set};
 use crate::measure::context::Context;
-use crate::measure::families::{HARD, HardFamily, hard_number};
+use crate::measure::families::{Family, HARD, hard_number, hard_tosses_of};
 use crate::measure::reference::Reference;
 use crate::measure::tosses::random;
 use crate::measure::trial::Deviation;
@@ -56,11 +56,8 @@ fn of_coins(seed: u64, wrong: fn(&CoinToss, &Reference) -> Deviation) -> Vec<Set
 }
 
 fn of_bodies() -> Vec<Set> {
-    let set = |family: &'static HardFamily| {
-        let tosses = move |context: &Context| Ok(family.tosses(hard_number(context.effort) / 12));
-        Set::new(family.name, tosses, wrong_margins_of_bodies)
-    };
-    HARD.iter().map(set).collect()
+    let tosses = |family: &'static Family, context: &Context| hard_tosses_of(family, hard_number(context.effort) / 12);
+    Set::of_families(&HARD, tosses, wrong_margins_of_bodies)
 }
 
 /// An input of a toss: its value, and the toss with `change` added to it, `None` if there is no such toss.

@@ -107,7 +107,7 @@ fn bounds_of_bodies(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 /// The largest error of cos θ or of the attitude in a family, divided by its bound, by solvers in turn.
 fn bounds_of_family(context: &Context, family: &Family, solvers: &[QuaternionSolver]) -> Measurement {
-    let tosses: Vec<Toss> = launches(family, tries(context.effort) / 20, FLOWN).collect();
+    let tosses = launches(family, tries(context.effort) / 20, FLOWN);
     let fly = |(index, toss): (usize, &Toss)| {
         let found = solvers[index % solvers.len()].enclose(toss).ok()?;
         (found.error_bound() < 2.0).then_some((index, *toss, found))
@@ -141,7 +141,7 @@ fn outcomes() -> Vec<Set> {
     };
     let of_family = |family: &'static Family| {
         let tosses = move |context: &Context| {
-            let tosses = launches(family, tries(context.effort) / 20, FLOWN);
+            let tosses = launches(family, tries(context.effort) / 20, FLOWN).into_iter();
             Ok(tosses.flat_map(|toss| [Some(toss), at_an_edge(&toss)]).flatten().collect())
         };
         Set::new(format!("bodies: {}", family.name), tosses, of_body)
