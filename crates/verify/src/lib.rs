@@ -38,6 +38,6 @@ pub use measure::check::{Basis, Check, Judges, Measure};
 pub use measure::checks::CHECKS;
 pub use measure::context::Context;
 pub use measure::effort::Effort;
-pub use measure::measurement::{Measurement, Worst};
+pub use measure::trial::{Measurement, Worst};
 pub use render::report::{Report, Verdict};
 pub use suite::Suite;

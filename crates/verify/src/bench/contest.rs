@@ -25,9 +25,6 @@ pub(super) struct Times {
 
 /// Times all contestants in turn, many times over. Without a process of the reference the first contestant takes its
 /// place.
-///
-/// # Errors
-/// If the reference's process ends.
 pub(super) fn race(contests: &mut [Contest<'_>], mut reference: Option<&mut Reference>) -> anyhow::Result<Times> {
     const ROUNDS: usize = 40;
     let mut times = Times { reference: f64::INFINITY, contests: vec![f64::INFINITY; contests.len()] };

@@ -65,9 +65,6 @@ const WORKS: [&str; 24] = [
 ];
 
 /// Does the work called `name` `times` times.
-///
-/// # Errors
-/// If the work is unknown, or this machine does not have its SIMD level.
 pub(crate) fn work(name: &str, times: u32) -> anyhow::Result<()> {
     let (work, by) = name.split_once('/').context("a work has a name such as count/avx2")?;
     match work {
@@ -173,9 +170,6 @@ struct Line {
 
 impl Instructions {
     /// Counts the instructions of all works that this machine can do, by running this program under valgrind.
-    ///
-    /// # Errors
-    /// If there is no valgrind, or it fails.
     pub(crate) fn count() -> anyhow::Result<Self> {
         let count = |work: &&str| {
             let more = collected(work, 3)? - collected(work, 1)?;

@@ -40,9 +40,6 @@ struct Row {
 
 impl Table {
     /// Times all contestants and measures their errors.
-    ///
-    /// # Errors
-    /// If the reference's process ends, or a contestant fails.
     pub(crate) fn measure() -> anyhow::Result<Self> {
         let (columns, mut reference) = (tosses::Columns::new(tosses::TOSSES), Reference::start().ok());
         let flown = tosses::Columns::new(integrators::FLOWN);

@@ -26,9 +26,6 @@ pub(super) struct Reference {
 
 impl Reference {
     /// Compiles the program and starts it.
-    ///
-    /// # Errors
-    /// If there is no C compiler with a vector library of mathematical functions (libmvec).
     pub(super) fn start() -> anyhow::Result<Self> {
         let folder = std::env::temp_dir().join(format!("unfair-toss-bench-{}", std::process::id()));
         std::fs::create_dir_all(&folder)?;

@@ -82,9 +82,6 @@ const METHODS: [Method; 4] = [
 
 impl ToAccuracy {
     /// Measures the times of all methods to `accuracy`, over Fig. 4's space and the box of four coordinates.
-    ///
-    /// # Errors
-    /// If enclosure does not reach the accuracy.
     pub(crate) fn measure(accuracy: f64) -> anyhow::Result<Self> {
         let pool = ThreadPoolBuilder::new().num_threads(1).build().context("cannot start a thread")?;
         let mut rows = Vec::new();

@@ -76,9 +76,6 @@ pub fn main(suite: Suite) -> ExitCode {
 
 impl Program {
     /// Runs the command and returns the exit code.
-    ///
-    /// # Errors
-    /// If the command could not run.
     fn run(self, suite: Suite) -> anyhow::Result<u8> {
         let Folders { validation, out } = self.folders;
         let suite = match validation {

@@ -68,9 +68,6 @@ impl Foreign {
     }
 
     /// The program as an entry, if there is one.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for a claim that is not above 0 and below 1.
     fn entry(&self) -> Result<Option<SolverEntry>, InputError> {
         let Some(command) = &self.command else { return Ok(None) };
         let usual = Limits::default();

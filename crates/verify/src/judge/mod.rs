@@ -5,15 +5,13 @@
 //! | what | where |
 //! |---|---|
 //! | compares a measurement with its limit, or with the solver's own error estimate | [`row`] |
-//! | reads tables of limits | [`limits`] |
+//! | reads tables of limits, and proposes some for rows that have none | [`limits`] |
 //! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
 //! | compares the time of each check with its limit | [`time`] |
-//! | proposes limits for rows that have none | `proposal` |
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
 pub mod limits;
-pub(crate) mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;

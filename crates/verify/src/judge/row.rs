@@ -9,8 +9,8 @@ use serde::Serialize;
 use super::limits::Limits;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::effort::Effort;
-use crate::measure::measurement::{Claim, Measurement, Worst};
 use crate::measure::replay::{Commands, Replay};
+use crate::measure::trial::{Claim, Measurement};
 
 /// A limit that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;
@@ -147,38 +147,6 @@ pub fn judge(check: &Check, measurements: Vec<Measurement>, limits: &Limits) -> 
     Judge { limits, commands: &Commands::of_this_workspace(), effort: Effort::Standard }.rows(check, measurements)
 }
 
-/// The value that was judged, what it was compared with, and the result.
-struct Verdict {
-    measured: f64,
-    allowed: Option<f64>,
-    worst: Option<Worst>,
-    status: Status,
-}
-
-impl Verdict {
-    /// Neither a limit nor a claim can allow more than `ceiling`. Where the ceiling is 0, a claim counts what is wrong,
-    /// but `measured` also what is undecided.
-    fn new(measured: f64, worst: Option<Worst>, claim: Claim, limit: Option<f64>, ceiling: f64) -> Self {
-        let without_limit = |status| Self { measured, allowed: None, worst: worst.clone(), status };
-        match (limit.map(|limit| limit.min(ceiling)), claim) {
-            (Some(limit), _) => Self { measured, allowed: Some(limit), worst, status: by_limit(measured, limit) },
-            (None, Claim::Allows { measured: by_claim, allowed, .. })
-                if by_claim <= allowed && measured > ceiling && ceiling > 0.0 =>
-            {
-                Self { measured, allowed: Some(ceiling), worst, status: Status::FailByClaim }
-            }
-            (None, Claim::Allows { measured, allowed, worst }) => {
-                let allowed = allowed.min(ceiling);
-                let status = if measured <= allowed { Status::PassByClaim } else { Status::FailByClaim };
-                Self { measured, allowed: Some(allowed), worst, status }
-            }
-            (None, Claim::Silent) => without_limit(Status::NotJudged),
-            (None, Claim::NoEstimate) => without_limit(Status::NoClaim),
-            (None, Claim::NoSolver) => without_limit(Status::NoLimit),
-        }
-    }
-}
-
 fn by_limit(measured: f64, limit: f64) -> Status {
     match measured <= limit {
         true if limit >= LOOSE * measured && limit > 0.0 => Status::PassLoose,
@@ -187,11 +155,30 @@ fn by_limit(measured: f64, limit: f64) -> Status {
     }
 }
 
+/// Neither a limit nor a claim can allow more than the ceiling. Where the ceiling is 0, a claim counts what is wrong, but
+/// `measured` also what is undecided.
 fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
     let Measurement { subject, measured, cases, without_reference, worst, claim, judges } = measurement;
-    let largest = Some(measured).filter(|largest| largest.is_finite());
-    let Verdict { measured, allowed, worst, status } =
-        Verdict::new(measured, worst, claim, judge.limits.get(check.id, &subject), check.ceiling);
+    let (largest, ceiling) = (Some(measured).filter(|largest| largest.is_finite()), check.ceiling);
+    let limit = judge.limits.get(check.id, &subject).map(|limit| limit.min(ceiling));
+    let (measured, limit, worst, status) = match (limit, claim) {
+        (Some(limit), _) => (measured, Some(limit), worst, by_limit(measured, limit)),
+        (None, Claim::Allows { measured: by_claim, allowed, .. })
+            if by_claim <= allowed && measured > ceiling && ceiling > 0.0 =>
+        {
+            (measured, Some(ceiling), worst, Status::FailByClaim)
+        }
+        (None, Claim::Allows { measured, allowed, worst }) => {
+            let allowed = allowed.min(ceiling);
+            let status = if measured <= allowed { Status::PassByClaim } else { Status::FailByClaim };
+            (measured, Some(allowed), worst, status)
+        }
+        (None, Claim::Silent) => (measured, None, worst, Status::NotJudged),
+        (None, Claim::NoEstimate) => (measured, None, worst, Status::NoClaim),
+        (None, Claim::NoSolver) => (measured, None, worst, Status::NoLimit),
+    };
+    let worst = worst.map(|worst| (Some(worst.input), worst.failure, worst.replay));
+    let (worst_input, failure, replay) = worst.unwrap_or_default();
     Row {
         check: check.id.to_owned(),
         claim: check.claim.to_owned(),
@@ -199,14 +186,14 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         judges: Some(judges.unwrap_or(check.judges)),
         unit: check.unit.to_owned(),
         measured: measured.is_finite().then_some(measured),
-        limit: allowed,
-        reserve: allowed.map(|allowed| allowed / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
+        limit,
+        reserve: limit.map(|limit| limit / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
         status,
         cases,
         without_reference,
-        worst_input: worst.as_ref().map(|worst| worst.input.clone()),
-        failure: worst.as_ref().and_then(|worst| worst.failure.clone()),
-        replay: Some(judge.command(check, worst.and_then(|worst| worst.replay).as_ref())),
+        worst_input,
+        failure,
+        replay: Some(judge.command(check, replay.as_ref())),
         largest,
         subject,
     }

@@ -87,12 +87,7 @@ impl Timing {
 /// How long `check` may take at `effort` (s), with all limits multiplied by `factor`.
 pub fn limit_s(check: &str, effort: Effort, factor: f64) -> f64 {
     let usual = USUAL_S.iter().find(|(start, _)| check.starts_with(start)).map_or(USUAL, |(_, usual)| *usual);
-    let cases = match effort {
-        Effort::Quick => 1.0,
-        Effort::Standard => 5.0,
-        Effort::Deep => 50.0,
-    };
-    factor * PATIENCE * cases * usual
+    factor * PATIENCE * effort.of([1.0, 5.0, 50.0]) * usual
 }
 
 #[cfg(test)]

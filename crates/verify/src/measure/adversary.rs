@@ -6,24 +6,26 @@
 //! n is the coin's normal, S its angular momentum, k = I3/I1 its inertia ratio, ψ the cone angle between n and S, β the
 //! angle of n to the vertical.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
+use anyhow::Context as _;
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{
-    Coin, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3,
-};
+use toss::{Coin, CoinMotion, CoinToss, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::case;
-use super::measurement::Worst;
+use super::context::Context;
 use super::reference::Reference;
 use super::replay::Replay;
 use super::run::{Answer, Run};
 use super::subject::{Subject, by_scheme};
-use super::tosses::{decades, one, stream, throw};
+use super::tosses::{decades, one, stream, throw, tossed};
+use super::trial::{Measurement, Worst};
 
 const SEED: u64 = 20_261_121;
 
@@ -37,83 +39,64 @@ const STEPS: [f64; 2] = [0.1, 0.03];
 /// smallest ones are so many that rounding is all there is.
 const SLOW_STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
-/// What the search found for one solver and scheme.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Findings {
-    /// The subject's name.
-    pub subject: String,
-    /// Launches that were tried.
-    pub launches: u64,
-    /// Launches that were refused with an error.
-    pub refused: u64,
-    /// Launches that were answered wrongly without an error.
-    pub silently_wrong: u64,
-    /// Launches that were answered by a solver without an error estimate.
-    pub unclaimed: u64,
-    /// The first refused launch.
-    pub first_refused: Option<Worst>,
-    /// The first launch that was answered wrongly.
-    pub first_wrong: Option<Worst>,
-}
-
-/// Tries `launches` adversarial launches with every solver of `registry`, each integrator by every scheme.
-///
-/// # Errors
-/// If a scheme takes neither a tolerance nor steps.
-pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<Vec<Findings>> {
-    search_among(registry, launches, |index| {
-        let toss = launch(SEED, index);
-        Ok((toss, Arc::new(Reference::of(&toss)?)))
-    })
-}
-
-/// The same with the tosses that `case` gives, with their references.
-///
-/// # Errors
-/// Those of [`search`] and of `case`.
-pub(super) fn search_among(
-    registry: &[SolverEntry],
+/// What one solver with its scheme answered to launches that were chosen to break it.
+pub(crate) struct Answers {
+    subject: String,
     launches: u64,
-    case: impl Fn(u64) -> anyhow::Result<(Toss, Arc<Reference>)> + Sync,
-) -> anyhow::Result<Vec<Findings>> {
-    let contestants: Vec<_> = registry.iter().flat_map(by_scheme).collect();
-    let fly = |index: u64| -> anyhow::Result<Vec<Run>> {
-        let (toss, exact) = case(index)?;
-        contestants.par_iter().map(|by| Ok(Run::new(&subject(*by, &toss, index)?, &toss, &exact))).collect()
-    };
-    let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<anyhow::Result<_>>()?;
-    let findings = |(column, by): (usize, &(&SolverEntry, Option<Scheme>))| {
-        let of = |answer: Answer| (0..).zip(&runs).filter(move |(_, runs)| runs[column].answer == answer);
-        let first = |answer: Answer| -> anyhow::Result<Option<Worst>> {
-            let Some((index, runs)) = of(answer).next() else { return Ok(None) };
-            let (toss, _) = case(index)?;
-            let replay = Some(Replay::new(&toss, &subject(*by, &toss, index)?));
-            let run = &runs[column];
-            let failure = run.failure.clone().unwrap_or_else(|| run.words());
-            Ok(Some(Worst { input: case::text(&toss), failure: Some(failure), replay }))
+    /// How many answers are of each kind, and the first of them.
+    kinds: BTreeMap<Answer, (u64, Worst)>,
+}
+
+/// Tries adversarial launches with every solver of the registry, each integrator by every scheme.
+pub(super) fn search(context: &Context) -> anyhow::Result<Vec<Answers>> {
+    let launches = context.effort.of([2000, 10_000, 200_000]);
+    search_among(context, &(0..launches).map(|index| launch(SEED, index)).collect::<Vec<_>>())
+}
+
+/// The same with `tosses`, each of which has a reference.
+pub(super) fn search_among(context: &Context, tosses: &[Toss]) -> anyhow::Result<Vec<Answers>> {
+    let contestants: Vec<_> = context.registry.iter().flat_map(by_scheme).collect();
+    let exact: Vec<_> = tosses.par_iter().map(|toss| context.exact.of(toss)).collect();
+    let by = |by: &(&SolverEntry, Option<Scheme>)| {
+        let fly = |(index, (toss, exact)): (usize, (&Toss, &Option<Arc<Reference>>))| {
+            let exact = exact.as_ref().context("a launch to break solvers has no reference")?;
+            Ok(Run::new(&subject(*by, toss, index)?, toss, exact))
         };
-        Ok(Findings {
-            subject: runs.first().map(|runs| runs[column].subject.clone()).unwrap_or_default(),
-            launches,
-            refused: of(Answer::TypedError).count() as u64,
-            silently_wrong: of(Answer::SilentlyWrong).count() as u64,
-            unclaimed: of(Answer::Unclaimed).count() as u64,
-            first_refused: first(Answer::TypedError)?,
-            first_wrong: first(Answer::SilentlyWrong)?,
-        })
+        let runs: Vec<Run> = tosses.par_iter().zip(&exact).enumerate().map(fly).collect::<anyhow::Result<_>>()?;
+        let subject_of_first = runs.first().map(|run| run.subject.clone()).unwrap_or_default();
+        let mut answers = Answers { subject: subject_of_first, launches: runs.len() as u64, kinds: BTreeMap::new() };
+        for (index, run) in runs.into_iter().enumerate() {
+            match answers.kinds.entry(run.answer) {
+                Entry::Occupied(mut known) => known.get_mut().0 += 1,
+                Entry::Vacant(first) => {
+                    let settings = case::settings(&subject(*by, &tosses[index], index)?);
+                    let replay = Some(Replay { input: run.inputs.clone(), settings, row: None });
+                    let failure = Some(run.failure.clone().unwrap_or_else(|| run.words()));
+                    first.insert((1, Worst { input: run.inputs, failure, replay }));
+                }
+            }
+        }
+        Ok(answers)
     };
-    contestants.iter().enumerate().map(findings).collect()
+    contestants.par_iter().map(by).collect()
+}
+
+impl Answers {
+    /// The number of answers of a kind, with the first of them as the worst case.
+    pub(crate) fn number_of(&self, answer: Answer) -> Measurement {
+        let (measured, worst) = self.kinds.get(&answer).cloned().unzip();
+        let none = Measurement::figure(&self.subject, measured.unwrap_or(0) as f64, self.launches, String::new());
+        Measurement { worst, ..none }
+    }
 }
 
 /// A solver with its scheme, if it is an integrator, with its settings for launch number `index`.
-fn subject((entry, scheme): (&SolverEntry, Option<Scheme>), toss: &Toss, index: u64) -> Result<Subject, InputError> {
-    let turn = usize::try_from(index).unwrap_or(0);
-    let slow_turn = usize::try_from(index / SLOW_EVERY).unwrap_or(0);
+fn subject((entry, scheme): (&SolverEntry, Option<Scheme>), toss: &Toss, index: usize) -> Result<Subject, InputError> {
     let stepping = |scheme: Scheme| {
         let step = match is_slow(index) && scheme.takes_steps() {
-            true => SLOW_STEPS[slow_turn % SLOW_STEPS.len()],
-            false if scheme.is_adaptive() => return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]),
-            false => STEPS[turn % STEPS.len()],
+            true => SLOW_STEPS[index / SLOW_EVERY % SLOW_STEPS.len()],
+            false if scheme.is_adaptive() => return Stepping::adaptive(scheme, TOLERANCES[index % TOLERANCES.len()]),
+            false => STEPS[index % STEPS.len()],
         };
         // For a coin at rest 1/|ω| is infinite, and the longest step will do.
         let rate = toss.launch.turn_rate().max(f64::MIN_POSITIVE);
@@ -123,32 +106,31 @@ fn subject((entry, scheme): (&SolverEntry, Option<Scheme>), toss: &Toss, index: 
 }
 
 /// One launch in so many is slow: all its rates are below 1e-3 rad/s, and it turns by up to 300 rad in hours to years.
-pub(super) const SLOW_EVERY: u64 = 40;
+const SLOW_EVERY: usize = 40;
 
 /// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
-pub(super) fn launch(seed: u64, index: u64) -> Toss {
-    drawn(&mut stream(seed, index), index).expect("every launch is valid").into()
+pub(super) fn launch(seed: u64, index: usize) -> Toss {
+    drawn(&mut stream(seed, index as u64), index).expect("every launch is valid").into()
 }
 
-fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
+fn drawn(rng: &mut ChaCha8Rng, index: usize) -> Result<CoinToss, InputError> {
     let k = inertia_ratio(rng);
     let coin = Coin::from_moments(1.0, k)?;
     let mut rate = rate(rng, k);
     if is_slow(index) && rate.amax() > 0.0 {
         rate = rate / rate.amax() * decades(rng, -9.0, -3.0);
     }
-    let still = CoinToss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
-    let motion = CoinMotion::new(&still);
+    let motion = CoinMotion::new(&tossed(coin, rate, TimeOfFlight::Given(0.0), 0.0)?);
     let tilt = tilt(rng, motion.cone_angle());
     let time = time(rng, &motion, &rate);
-    let launch = Launch::new(rate, throw(TimeOfFlight::Given(time), index))?.with_tilt(tilt)?;
     // The motion depends on the ratio of the moments alone, whatever their size (kg m²).
     let i1 = decades(rng, -12.0, 3.0);
-    Ok(CoinToss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch })
+    let coin = Coin::from_moments(i1, (k * i1).min(2.0 * i1))?;
+    tossed(coin, rate, throw(TimeOfFlight::Given(time), index as u64), tilt)
 }
 
 /// Whether launch number `index` is a slow one.
-pub(super) fn is_slow(index: u64) -> bool {
+fn is_slow(index: usize) -> bool {
     index % SLOW_EVERY == SLOW_EVERY - 1
 }
 

@@ -3,22 +3,21 @@
 //! fit that has a function of its own.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 
 use dynamics::Toss;
 use rayon::prelude::*;
 use serde::Serialize;
 use toss::{CoinToss, Landing, SolveError};
 
-use crate::measure::cases::Case;
 use crate::measure::context::Context;
-pub use crate::measure::measurement::Judges;
-use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::families::Family;
 use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::survey::{Landings, Survey};
 use crate::measure::tosses::tries;
+use crate::measure::trial::{Deviation, Measurement, Trial, Worst};
+pub use crate::measure::trial::{Fold, Judges};
 
 /// The kind of evidence that a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -57,7 +56,7 @@ pub mod ceiling {
 }
 
 /// A claim and how it is measured.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Check {
     /// Unique short name; the key of its limits.
     pub id: &'static str,
@@ -90,57 +89,45 @@ pub enum Measure {
         /// What is allowed without a limit.
         allowed: Allowed,
     },
-    /// Both of these, one after the other.
+    /// These, one after the other.
     Both(&'static [Measure; 2]),
     /// What no deviation of a single toss is.
     Own(fn(&Context) -> anyhow::Result<Vec<Measurement>>),
 }
 
-/// How the deviations of a set become what is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fold {
-    /// The largest.
-    Largest,
-    /// The number of tosses with any.
-    Count,
-    /// The mean.
-    Mean,
-    /// The median.
-    Median,
-}
-
-/// A named set of cases, and a deviation that is taken on each of them.
+/// A named set of tosses, and a deviation that is taken on each of them.
 pub struct Set {
     subject: String,
     of_coins: bool,
-    cases: Cases,
+    tosses: Tosses,
     deviation: OfToss,
 }
 
-/// Makes the cases of a set.
-type Cases = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync>;
+/// Makes the tosses of a set.
+type Tosses = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync>;
 
 /// A deviation of a toss.
 type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
 
 impl Set {
-    /// The cases that `cases` makes, in the row of `subject`.
-    pub(super) fn of_cases(
-        subject: impl Into<String>,
-        cases: impl Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync + 'static,
-        deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
-    ) -> Self {
-        Self { subject: subject.into(), of_coins: false, cases: Box::new(cases), deviation: Box::new(deviation) }
-    }
-
     /// The tosses of any bodies that `tosses` makes, in the row of `subject`.
     pub(super) fn new(
         subject: impl Into<String>,
         tosses: impl Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
         deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
-        let case = |toss| Case { toss, reference: None };
-        Self::of_cases(subject, move |context| Ok(tosses(context)?.into_iter().map(case).collect()), deviation)
+        Self { subject: subject.into(), of_coins: false, tosses: Box::new(tosses), deviation: Box::new(deviation) }
+    }
+
+    /// A set for each of `families`, in the row of its name, of the tosses that `tosses` makes of it.
+    pub(super) fn of_families(
+        families: &'static [Family],
+        tosses: fn(&'static Family, &Context) -> Vec<Toss>,
+        deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static,
+    ) -> Vec<Self> {
+        let set =
+            |family: &'static Family| Self::new(family.name, move |context| Ok(tosses(family, context)), deviation);
+        families.iter().map(set).collect()
     }
 
     /// The tosses of coins that `tosses` makes, on which alone the deviation is taken.
@@ -165,30 +152,13 @@ impl Set {
         Self::of_coins(subject, all, deviation)
     }
 
-    fn measured(&self, fold: Fold, cases: &[Case]) -> Measurement {
-        let name = &*self.subject;
-        let deviation = |case: &Case| {
-            let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).ok().map(Arc::new))?;
-            Some((case.toss, guarded(|| (self.deviation)(&case.toss, &reference))))
+    fn measured(&self, fold: Fold, tosses: &[Toss], context: &Context) -> Measurement {
+        let tried = |toss: &Toss| {
+            let exact = context.exact.of(toss)?;
+            Some(Trial::of_library(toss, guarded(|| (self.deviation)(toss, &exact))))
         };
-        let (tosses, found): (Vec<Toss>, Vec<Deviation>) = cases.par_iter().filter_map(deviation).unzip();
-        let worst = |index: usize, failure| Worst::of_library(&tosses[index], failure);
-        let mut sizes: Vec<f64> = found.iter().map(|found| found.clone().unwrap_or(f64::INFINITY)).collect();
-        let figure = |measured: f64, input| Measurement::figure(name, measured, found.len() as u64, input);
-        let measured = match fold {
-            Fold::Largest => Measurement::without_estimate(name, &found, worst),
-            Fold::Count => Measurement::count(name, &found, worst),
-            Fold::Mean => {
-                let largest = sizes.iter().copied().fold(0.0, f64::max);
-                figure(sizes.iter().sum::<f64>() / sizes.len() as f64, format!("largest error {largest:.3e}"))
-            }
-            Fold::Median => {
-                sizes.sort_by(f64::total_cmp);
-                let at = |part: usize| sizes.get(sizes.len() * part / 100).copied().unwrap_or(f64::NAN);
-                figure(at(50), format!("95 % are below {:.0}", at(95)))
-            }
-        };
-        measured.of_the_library().beside_unjudged(cases.len() - found.len())
+        let trials: Vec<Trial<'_>> = tosses.par_iter().filter_map(tried).collect();
+        fold.of(&self.subject, &trials).of_the_library().beside_unjudged(tosses.len() - trials.len())
     }
 }
 
@@ -230,6 +200,17 @@ pub enum Allowed {
     NotJudged,
 }
 
+impl Allowed {
+    /// What is allowed `subject` on `toss`, where its error estimate is `estimate`.
+    fn of(self, subject: &Subject, toss: &Toss, estimate: Option<f64>) -> Option<f64> {
+        match self {
+            Self::By(part) => Allowance::new(subject, toss, estimate).as_ref().map(part),
+            Self::UpTo(most) => Some(most),
+            Self::NotJudged => None,
+        }
+    }
+}
+
 /// The largest deviation of `subject`, which has these `landings`; `None` of a solver for coins among bodies.
 pub(super) fn of_landings(
     survey: &Survey,
@@ -240,71 +221,55 @@ pub(super) fn of_landings(
     if landings.is_empty() {
         return None;
     }
-    let family = |index: usize| survey.families.get(index).copied().unwrap_or_default();
-    let judged = landings.iter().enumerate().filter_map(|(index, landing)| {
+    let trial = |(index, landing): (usize, &Result<Landing, SolveError>)| {
         let (toss, exact) = (&survey.tosses[index], survey.exact[index].as_ref()?);
-        match landing {
-            Ok(landing) => Some((index, Ok(deviation(&Landed { toss, family: family(index), exact, landing })?))),
-            Err(error) => Some((index, Err(error.clone()))),
-        }
-    });
-    let (indices, deviations): (Vec<usize>, Vec<Deviation>) = judged.unzip();
-    let toss = |index: usize| survey.tosses[indices[index]];
-    let found = Measurement::largest(subject, &deviations, toss, |index| match allowed {
-        Allowed::By(part) => Ok(survey.allowance(subject, landings, indices[index])?.as_ref().map(part)),
-        Allowed::UpTo(most) => Ok(Some(most)),
-        Allowed::NotJudged => Ok(None),
-    });
-    let found = found.beside_unjudged(survey.exact.iter().filter(|exact| exact.is_none()).count());
+        let family = survey.families.get(index).copied().unwrap_or_default();
+        let of = |landing: &Landing| Some((deviation(&Landed { toss, family, exact, landing })?, landing.error));
+        let found = landing.as_ref().map(of).map_err(Clone::clone).transpose()?;
+        Some(Trial::by(subject, toss, found.map(|(size, estimate)| (size, allowed.of(subject, toss, estimate)))))
+    };
+    let trials: Vec<Trial<'_>> = landings.iter().enumerate().filter_map(trial).collect();
+    let unjudged = survey.exact.iter().filter(|exact| exact.is_none()).count();
+    let found = Fold::Largest.of(&subject.name, &trials).beside_unjudged(unjudged);
     Some(if matches!(allowed, Allowed::NotJudged) { found.without_claim() } else { found })
 }
 
 impl Check {
-    /// What most checks of solvers have in common.
-    pub(crate) const OF_SOLVERS: Self = Self {
-        id: "",
-        claim: "",
-        basis: Basis::ClosedForm,
-        judges: Judges::Solver,
-        ceiling: 0.0,
-        unit: "1",
-        measure: Measure::Own(|_| Ok(Vec::new())),
-    };
+    /// A check of solvers by a closed form in more digits, under which nothing may deviate.
+    pub const fn of_solvers(id: &'static str, measure: Measure) -> Self {
+        let (basis, judges) = (Basis::ClosedForm, Judges::Solver);
+        Self { id, claim: "", basis, judges, ceiling: 0.0, unit: "1", measure }
+    }
 
-    /// What most checks of the library have in common.
-    pub(super) const OF_LIBRARY: Self = Self { judges: Judges::Library, ..Self::OF_SOLVERS };
+    /// The same of the library.
+    pub const fn of_library(id: &'static str, measure: Measure) -> Self {
+        Self { judges: Judges::Library, ..Self::of_solvers(id, measure) }
+    }
+
+    /// The same check with this claim.
+    #[must_use]
+    pub const fn claims(self, claim: &'static str) -> Self {
+        Self { claim, ..self }
+    }
+
+    /// The same check, of which no table of limits allows more than `ceiling`, in this unit.
+    #[must_use]
+    pub const fn up_to(self, ceiling: f64, unit: &'static str) -> Self {
+        Self { ceiling, unit, ..self }
+    }
+
+    /// The same check on another basis.
+    #[must_use]
+    pub const fn by(self, basis: Basis) -> Self {
+        Self { basis, ..self }
+    }
 
     /// Measures every row.
     ///
     /// # Errors
     /// If what is measured can't be made.
     pub fn measure(&self, context: &Context) -> anyhow::Result<Vec<Measurement>> {
-        self.measured(self.measure, context)
-    }
-
-    fn measured(&self, measure: Measure, context: &Context) -> anyhow::Result<Vec<Measurement>> {
-        let rows: Vec<Measurement> = match measure {
-            Measure::Own(measure) => return measure(context),
-            Measure::Both([one, other]) => {
-                return Ok([self.measured(*one, context)?, self.measured(*other, context)?].concat());
-            }
-            Measure::Tosses(sets, fold) => {
-                let row = |set: Set| anyhow::Ok(set.measured(fold, &(set.cases)(context)?));
-                sets().into_iter().map(row).collect::<anyhow::Result<_>>()?
-            }
-            Measure::Landings { of, deviation, allowed } => {
-                let survey = of(context)?;
-                let each = context.subjects.par_iter().zip(&survey.landings);
-                each.filter_map(|by| of_landings(survey, by, deviation, allowed)).collect()
-            }
-        };
-        Ok(rows.into_iter().map(|row| self.repeating(row)).collect())
-    }
-
-    /// The same measurement, whose worst case is repeated by this check's measure.
-    fn repeating(&self, measurement: Measurement) -> Measurement {
-        let row = format!("{} / {}", self.id, measurement.subject);
-        measurement.with_worst(|worst| Worst { replay: worst.replay.map(|toss| toss.in_row(row.clone())), ..worst })
+        self.rows(self.measure, context, None)
     }
 
     /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses,
@@ -318,43 +283,50 @@ impl Check {
         toss: &Toss,
         is_asked: &dyn Fn(&str) -> bool,
     ) -> anyhow::Result<Vec<Measurement>> {
-        self.again_by(self.measure, context, toss, is_asked)
+        Reference::of(toss)?;
+        self.rows(self.measure, context, Some((toss, is_asked)))
     }
 
-    fn again_by(
-        &self,
-        measure: Measure,
-        context: &Context,
-        toss: &Toss,
-        is_asked: &dyn Fn(&str) -> bool,
-    ) -> anyhow::Result<Vec<Measurement>> {
-        Ok(match measure {
-            Measure::Own(_) => Vec::new(),
-            Measure::Both([one, other]) => {
-                let [one, other] = [one, other].map(|part| self.again_by(*part, context, toss, is_asked));
-                [one?, other?].concat()
+    /// The rows of all tosses or, of those asked for, of `one` toss.
+    fn rows(&self, measure: Measure, context: &Context, one: Option<One<'_>>) -> anyhow::Result<Vec<Measurement>> {
+        let rows: Vec<Measurement> = match measure {
+            Measure::Own(measure) => return if one.is_none() { measure(context) } else { Ok(Vec::new()) },
+            Measure::Both(parts) => {
+                let parts = parts.iter().map(|part| self.rows(*part, context, one));
+                return Ok(parts.collect::<anyhow::Result<Vec<_>>>()?.concat());
             }
             Measure::Tosses(sets, fold) => {
-                let is_solved = Reference::of(toss).is_ok();
-                let takes = |set: &Set| is_solved && (!set.of_coins || toss.coin().is_some());
-                let sets = sets().into_iter().filter(|set| is_asked(&set.subject) && takes(set));
-                let case = Case { toss: *toss, reference: None };
-                sets.map(|set| self.repeating(set.measured(fold, std::slice::from_ref(&case)))).collect()
-            }
-            Measure::Landings { deviation, allowed, .. } => {
-                let subjects = context.subjects.iter().filter(|subject| is_asked(&subject.name));
-                let again = |subject: &Subject| {
-                    let landings = vec![subject.solver.land(toss)];
-                    let survey = Survey {
-                        tosses: vec![*toss],
-                        families: Vec::new(),
-                        exact: vec![Some(Arc::new(Reference::of(toss)?))],
-                        landings: Vec::new(),
+                let row = |set: &Set| {
+                    let tosses = match one {
+                        None => (set.tosses)(context)?,
+                        Some((toss, is_asked)) if is_asked(&set.subject) && takes(set, toss) => vec![*toss],
+                        Some(_) => return Ok(None),
                     };
-                    anyhow::Ok(of_landings(&survey, (subject, &landings), deviation, allowed))
+                    anyhow::Ok(Some(set.measured(fold, &tosses, context)))
                 };
-                subjects.filter_map(|subject| again(subject).transpose()).collect::<anyhow::Result<_>>()?
+                sets().iter().filter_map(|set| row(set).transpose()).collect::<anyhow::Result<_>>()?
             }
-        })
+            Measure::Landings { of, deviation, allowed } => {
+                let again = one.map(|(toss, is_asked)| Survey::of_one(context, toss, is_asked));
+                let survey = again.as_ref().map_or_else(|| of(context), Ok)?;
+                let each = context.subjects.par_iter().zip(&survey.landings);
+                each.filter_map(|by| of_landings(survey, by, deviation, allowed)).collect()
+            }
+        };
+        Ok(rows.into_iter().map(|row| self.repeating(row)).collect())
     }
+
+    /// The same measurement, whose worst case is repeated by this check's measure.
+    fn repeating(&self, measurement: Measurement) -> Measurement {
+        let row = format!("{} / {}", self.id, measurement.subject);
+        measurement.with_worst(|worst| Worst { replay: worst.replay.map(|toss| toss.in_row(row.clone())), ..worst })
+    }
+}
+
+/// One toss, and which subjects it is asked of.
+type One<'a> = (&'a Toss, &'a dyn Fn(&str) -> bool);
+
+/// Whether the deviation of `set` is one of such a body.
+fn takes(set: &Set, toss: &Toss) -> bool {
+    !set.of_coins || toss.coin().is_some()
 }

@@ -6,86 +6,70 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
+use dynamics::Toss;
 use sampling::RunningStep;
+use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use toss::SolverEntry;
 
-use crate::measure::adversary::{Findings, search};
+use crate::measure::adversary::{Answers, search};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::cases::{Case, hard_bodies, long_bodies};
 use crate::measure::checks::hard;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
+use crate::measure::exact_landings::ExactLandings;
+use crate::measure::families::hard_tosses;
 use crate::measure::long_flights::LongFlights;
-use crate::measure::planner::Trial;
+use crate::measure::planner::{Planned, random_scenes};
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
-use crate::measure::survey::Survey;
+use crate::measure::survey::{Survey, random_launches};
 use crate::measure::tables::fig4;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
 
 /// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
 /// behind some of its rows, each null if no check needed it.
-#[derive(Serialize)]
 pub struct Context {
     /// How many cases are tried.
-    #[serde(skip)]
     pub effort: Effort,
     /// The solvers under verification.
-    #[serde(skip)]
     pub registry: Vec<SolverEntry>,
     /// These solvers with each of their schemes at tight settings.
-    #[serde(skip)]
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
-    #[serde(skip)]
     pub(crate) data: ReferenceData,
     /// Reference probabilities from outside the workspace.
-    #[serde(skip)]
     pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
-    #[serde(skip)]
     pub(crate) coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
-    #[serde(skip)]
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
-    #[serde(skip)]
     pub(crate) expected: Expected,
+    /// The exact landings that checks have asked for.
+    pub exact: ExactLandings,
     /// The landings of every subject from random launches.
-    #[serde(skip)]
     pub survey: Shared<Survey>,
     /// The landings of bodies by every subject.
-    #[serde(skip)]
     pub bodies: Shared<Survey>,
-    /// Long flights of bodies, by family, with their references.
-    #[serde(skip)]
-    pub(crate) long_bodies: Shared<Vec<Vec<Case>>>,
-    /// Tosses of the hard families, with their references.
-    #[serde(skip)]
-    pub(crate) hard_bodies: Shared<Vec<Vec<Case>>>,
-    /// The same within 3 ulp of a time at which their outcome changes.
-    #[serde(skip)]
-    pub(crate) hard_edges: Shared<Vec<Vec<Case>>>,
+    /// Tosses of the hard families within 3 ulp of a time at which their outcome changes.
+    pub(crate) hard_edges: Shared<Vec<Vec<Toss>>>,
     /// The landings of the hard families by every subject.
-    #[serde(skip)]
     pub(crate) hard: Shared<Survey>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
     /// The long flights.
     pub long_flights: Shared<LongFlights>,
-    /// What the search by adversarial launches found.
-    #[serde(skip)]
-    pub(crate) search: Shared<Vec<Findings>>,
+    /// The answers to the launches chosen to break solvers.
+    pub(crate) search: Shared<Vec<Answers>>,
     /// The sweep of tolerances and steps.
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     /// Random scenes, solved as planned.
-    #[serde(skip)]
-    pub trial: Shared<Trial>,
+    pub(crate) scenes: Shared<Vec<Planned>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
 }
@@ -119,9 +103,15 @@ impl<T> Shared<T> {
     }
 }
 
-impl<T: Serialize> Serialize for Shared<T> {
+impl Serialize for Context {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.found().serialize(to)
+        let mut records = to.serialize_struct("Context", 5)?;
+        records.serialize_field("atlas", &self.atlas.found())?;
+        records.serialize_field("long_flights", &self.long_flights.found())?;
+        records.serialize_field("sweep", &self.sweep.found())?;
+        records.serialize_field("convergence", &self.convergence.found())?;
+        records.serialize_field("fig4", &self.fig4.found())?;
+        records.end()
     }
 }
 
@@ -142,32 +132,31 @@ impl Context {
             coins: ReferenceCoin::inside()?,
             problems: problems::all()?,
             expected: Expected::of_this_workspace()?,
-            survey: Shared::by(|context| Survey::random(&context.subjects, context.effort.launches())),
-            bodies: Shared::by(|context| Survey::of_bodies(&context.subjects, context.effort)),
-            long_bodies: Shared::by(|context| Ok(long_bodies(context.effort))),
-            hard_bodies: Shared::by(|context| Ok(hard_bodies(context.effort))),
+            exact: ExactLandings::default(),
+            survey: Shared::by(|context| {
+                let launches = random_launches(context.effort.of([1000, 5000, 50_000]))?;
+                Ok(Survey::of(&context.subjects, launches, Vec::new(), &context.exact))
+            }),
+            bodies: Shared::by(|context| Ok(Survey::of_bodies(context))),
             hard_edges: Shared::by(hard::edges),
             hard: Shared::by(|context| {
                 // Longer ones take more steps than a scheme of fixed steps has.
-                let is_short = |case: &&Case| case.toss.launch.flight_time() <= 50.0;
-                let cases = context.hard_bodies.get(context)?.iter().flatten().filter(is_short);
-                Survey::of_cases(&context.subjects, cases)
+                let is_short = |toss: &Toss| toss.launch.flight_time() <= 50.0;
+                let tosses = hard_tosses(context.effort).into_iter().flatten().filter(is_short).collect();
+                Ok(Survey::of(&context.subjects, tosses, Vec::new(), &context.exact))
             }),
             atlas: Shared::by(|context| Atlas::new(&context.registry)),
             long_flights: Shared::by(|context| LongFlights::new(&context.registry)),
-            search: Shared::by(|context| search(&context.registry, context.effort.adversarial_launches())),
+            search: Shared::by(search),
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),
-            trial: Shared::by(|context| Trial::new(context.effort)),
+            scenes: Shared::by(random_scenes),
             fig4: Shared::by(|_| fig4()),
         })
     }
 }
 
 /// Checks that no two solvers share a name, because their rows could not be told apart.
-///
-/// # Errors
-/// If two solvers have the same name, or one that of the [`YARDSTICK`].
 fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     let mut names = BTreeSet::new();
     for entry in registry {

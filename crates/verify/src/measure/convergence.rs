@@ -46,9 +46,6 @@ pub struct Convergence {
 }
 
 /// Measures every integrator of `registry` with each scheme that takes fixed steps and has an order.
-///
-/// # Errors
-/// If too few regular flights are found; the fixed space of launches has enough.
 pub(crate) fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
     let flights: Vec<(CoinToss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();

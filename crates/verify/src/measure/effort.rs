@@ -18,37 +18,16 @@ pub enum Effort {
 impl Effort {
     /// Its name, as in the baseline's file.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Quick => "quick",
-            Self::Standard => "standard",
-            Self::Deep => "deep",
-        }
+        self.of(["quick", "standard", "deep"])
     }
 
     /// The flag that asks for it, after a space; empty for the default.
     pub fn flag(self) -> &'static str {
-        match self {
-            Self::Quick => " --quick",
-            Self::Standard => "",
-            Self::Deep => " --deep",
-        }
+        self.of([" --quick", "", " --deep"])
     }
 
-    /// Number of random launches.
-    pub fn launches(self) -> u64 {
-        match self {
-            Self::Quick => 1000,
-            Self::Standard => 5000,
-            Self::Deep => 50_000,
-        }
-    }
-
-    /// Number of adversarial launches.
-    pub fn adversarial_launches(self) -> u64 {
-        match self {
-            Self::Quick => 2000,
-            Self::Standard => 10_000,
-            Self::Deep => 200_000,
-        }
+    /// That of three sizes which this effort takes: quick, standard, deep.
+    pub fn of<T: Copy>(self, sizes: [T; 3]) -> T {
+        sizes[self as usize]
     }
 }

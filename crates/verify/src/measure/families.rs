@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
 use toss::{Attitude, Coin, InputError, Launch, TimeOfFlight, Vector3};
 
+use crate::measure::effort::Effort;
 use crate::measure::reference::Reference;
 use crate::measure::tosses::throw;
 
@@ -28,68 +29,8 @@ pub(super) const FLOWN: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 3.0] }
 /// Bodies and launches that are hard in the same way.
 pub(super) struct Family {
     pub(super) name: &'static str,
-    /// Moments about three axes and the rate along them, from numbers in 0..1 of which no two are related.
-    make: fn(&mut Numbers) -> ([f64; 3], [f64; 3]),
-}
-
-/// All families.
-pub(super) const FAMILIES: [Family; 7] = [
-    Family { name: "random", make: |numbers| (moments(numbers), vector(numbers)) },
-    Family {
-        name: "nearly symmetric",
-        make: |numbers| {
-            let (a, c) = (numbers.between(0.5, 1.0), numbers.between(0.01, 1.0));
-            ([a, a * (1.0 + numbers.small(15.0)), a * 2.0 * c], vector(numbers))
-        },
-    },
-    Family {
-        name: "nearly spherical",
-        make: |numbers| {
-            let near = [1.0, 1.0 + numbers.small(15.0), 1.0 - numbers.small(15.0)];
-            (near, vector(numbers))
-        },
-    },
-    Family {
-        name: "near pure spin",
-        make: |numbers| {
-            let (outer, body) = (if numbers.next() < 0.5 { 0 } else { 2 }, sorted(moments(numbers)));
-            let mut rate = [numbers.small(12.0), -numbers.small(12.0), numbers.small(12.0)];
-            rate[outer] = 1.0;
-            (body, rate)
-        },
-    },
-    Family {
-        name: "near the middle axis",
-        make: |numbers| {
-            let body = sorted(moments(numbers));
-            (body, [numbers.small(12.0), 1.0, -numbers.small(12.0)])
-        },
-    },
-    Family {
-        name: "near the separatrix",
-        make: |numbers| {
-            let ([a, b, c], [_, y, z]) = (sorted(moments(numbers)), vector(numbers));
-            let on = (c * (c - b) / (a * (b - a))).sqrt() * z;
-            let off = numbers.small(16.0);
-            // Where two moments are nearly equal, the separatrix is far out, but no rate is to be much above 1.
-            let outside = on.abs().max(1.0);
-            ([a, b, c], [on * (1.0 + off), y, z].map(|rate| rate / outside))
-        },
-    },
-    Family {
-        name: "rods and plates",
-        make: |numbers| {
-            let (thin, long) = (numbers.small(8.0), numbers.between(0.5, 1.0));
-            let body = if numbers.next() < 0.5 { [thin, long, long + 0.9 * thin] } else { [1.0 - long, long, 1.0] };
-            (body, vector(numbers))
-        },
-    },
-];
-
-/// Bodies and launches for which no method has a simple case, given in every form.
-pub(super) struct HardFamily {
-    pub(super) name: &'static str,
-    /// `None` where rounding leaves no such body.
+    /// Makes body number `index`, and a launch without its time, of numbers in 0..1 of which no two are related; `None` where
+    /// rounding leaves no such body.
     make: fn(&mut Numbers, u64) -> Option<Drawn>,
 }
 
@@ -107,18 +48,78 @@ impl Drawn {
     fn new(body: Result<Body, InputError>, rate: [f64; 3]) -> Option<Self> {
         Some(Self { body: body.ok()?, rate, unit: AngleUnit::RADIAN, attitude: None })
     }
+
+    /// A body with these moments and the rate along them, about axes that `index` permutes.
+    fn along(moments: [f64; 3], mut rate: [f64; 3], index: u64) -> Option<Self> {
+        rate.rotate_left((index % 3) as usize);
+        Self::new(turned_moments(moments, index), rate)
+    }
 }
 
-/// All of these families.
-pub(super) const HARD: [HardFamily; 8] = [
-    HardFamily {
+/// Bodies with three moments.
+pub(super) const FAMILIES: [Family; 7] = [
+    Family { name: "random", make: |numbers, index| Drawn::along(moments(numbers), vector(numbers), index) },
+    Family {
+        name: "nearly symmetric",
+        make: |numbers, index| {
+            let (a, c) = (numbers.between(0.5, 1.0), numbers.between(0.01, 1.0));
+            Drawn::along([a, a * (1.0 + numbers.small(15.0)), a * 2.0 * c], vector(numbers), index)
+        },
+    },
+    Family {
+        name: "nearly spherical",
+        make: |numbers, index| {
+            let near = [1.0, 1.0 + numbers.small(15.0), 1.0 - numbers.small(15.0)];
+            Drawn::along(near, vector(numbers), index)
+        },
+    },
+    Family {
+        name: "near pure spin",
+        make: |numbers, index| {
+            let (outer, body) = (if numbers.next() < 0.5 { 0 } else { 2 }, sorted(moments(numbers)));
+            let mut rate = [numbers.small(12.0), -numbers.small(12.0), numbers.small(12.0)];
+            rate[outer] = 1.0;
+            Drawn::along(body, rate, index)
+        },
+    },
+    Family {
+        name: "near the middle axis",
+        make: |numbers, index| {
+            let body = sorted(moments(numbers));
+            Drawn::along(body, [numbers.small(12.0), 1.0, -numbers.small(12.0)], index)
+        },
+    },
+    Family {
+        name: "near the separatrix",
+        make: |numbers, index| {
+            let ([a, b, c], [_, y, z]) = (sorted(moments(numbers)), vector(numbers));
+            let on = (c * (c - b) / (a * (b - a))).sqrt() * z;
+            let off = numbers.small(16.0);
+            // Where two moments are nearly equal, the separatrix is far out, but no rate is to be much above 1.
+            let outside = on.abs().max(1.0);
+            Drawn::along([a, b, c], [on * (1.0 + off), y, z].map(|rate| rate / outside), index)
+        },
+    },
+    Family {
+        name: "rods and plates",
+        make: |numbers, index| {
+            let (thin, long) = (numbers.small(8.0), numbers.between(0.5, 1.0));
+            let body = if numbers.next() < 0.5 { [thin, long, long + 0.9 * thin] } else { [1.0 - long, long, 1.0] };
+            Drawn::along(body, vector(numbers), index)
+        },
+    },
+];
+
+/// Bodies and launches for which no method has a simple case, given in every form.
+pub(super) const HARD: [Family; 8] = [
+    Family {
         name: "two moments nearly equal",
         make: |numbers, index| {
             let (a, c) = (numbers.between(0.5, 50.0), numbers.between(0.01, 1.0));
             Drawn::new(turned_moments([a, a * (1.0 + numbers.gap()), 2.0 * a * c], index), vector(numbers))
         },
     },
-    HardFamily {
+    Family {
         name: "three moments nearly equal",
         make: |numbers, index| {
             let a = numbers.between(1e-7, 1e-5);
@@ -126,7 +127,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Drawn::new(turned_moments(moments, index), vector(numbers))
         },
     },
-    HardFamily {
+    Family {
         name: "nearly diagonal tensors",
         make: |numbers, index| {
             let a = numbers.between(0.5, 2.0);
@@ -136,7 +137,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Drawn::new(Body::from_inertia([a, b, c, xy, xz, yz]), vector(numbers))
         },
     },
-    HardFamily {
+    Family {
         name: "turned tensors",
         make: |numbers, index| {
             let a = numbers.between(0.5, 2.0);
@@ -149,7 +150,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Drawn::new(turned_tensor(numbers, moments), vector(numbers))
         },
     },
-    HardFamily {
+    Family {
         name: "plates and rods",
         make: |numbers, index| {
             let (a, b, thin) = (numbers.between(0.1, 1.0), numbers.between(0.1, 1.0), numbers.small(12.0));
@@ -162,7 +163,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Drawn::new(body, vector(numbers))
         },
     },
-    HardFamily {
+    Family {
         name: "quaternions of any norm",
         make: |numbers, index| {
             let size = 10f64.powf(numbers.between(-3.0, 3.0));
@@ -175,7 +176,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Some(Drawn { attitude: Some(attitude.ok()?), ..drawn })
         },
     },
-    HardFamily {
+    Family {
         name: "units",
         make: |numbers, index| {
             let (radius, thickness) = (numbers.between(5.0, 20.0), numbers.between(0.5, 60.0));
@@ -191,7 +192,7 @@ pub(super) const HARD: [HardFamily; 8] = [
             Some(Drawn { unit, attitude: Some(Attitude::about_x(in_degrees(numbers))), ..drawn })
         },
     },
-    HardFamily {
+    Family {
         name: "axes, separatrix and tiny rates",
         make: |numbers, index| {
             let tiny = [0; 3].map(|_| 10f64.powf(-numbers.between(15.0, 60.0)));
@@ -238,13 +239,23 @@ fn turned_tensor(numbers: &mut Numbers, moments: [f64; 3]) -> Result<Body, Input
     Body::from_inertia([xx, yy, zz, xy, xz, yz])
 }
 
+/// How many tosses of each hard family there are.
+pub(super) fn hard_number(effort: Effort) -> u64 {
+    effort.of([12, 60, 1500])
+}
+
+/// The tosses of each hard family.
+pub(super) fn hard_tosses(effort: Effort) -> Vec<Vec<Toss>> {
+    HARD.iter().map(|family| hard_tosses_of(family, hard_number(effort))).collect()
+}
+
 /// Tosses of a hard family, which turn by 1 to 30 rad at rates from 1e-3 to 1e3 in their units.
-pub(super) fn hard_tosses(family: &HardFamily, number: u64) -> Vec<Toss> {
+pub(super) fn hard_tosses_of(family: &Family, number: u64) -> Vec<Toss> {
     (0..number).filter_map(|index| hard_toss(family, index, None)).collect()
 }
 
 /// Toss number `index` of a hard family, which turns by `phase` (rad), or by 1 to 30 rad.
-pub(super) fn hard_toss(family: &HardFamily, index: u64, phase: Option<f64>) -> Option<Toss> {
+pub(super) fn hard_toss(family: &Family, index: u64, phase: Option<f64>) -> Option<Toss> {
     let mut numbers = Numbers(index.wrapping_mul(0x2545_f491_4f6c_dd1d).wrapping_add(family.name.len() as u64));
     let Drawn { body, rate, unit, attitude } = (family.make)(&mut numbers, index)?;
     // A power of two keeps every digit.
@@ -323,10 +334,9 @@ fn vector(numbers: &mut Numbers) -> [f64; 3] {
 }
 
 /// Tosses of a family. n is any one of the three axes.
-pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Iterator<Item = Toss> {
-    (0..number).filter_map(move |index| {
-        launch(family, index, within.rate, |numbers| 10f64.powf(numbers.between(within.phase[0], within.phase[1])))
-    })
+pub(super) fn launches(family: &Family, number: u64, Within { rate, phase }: Within) -> Vec<Toss> {
+    let phase = |numbers: &mut Numbers| 10f64.powf(numbers.between(phase[0], phase[1]));
+    (0..number).filter_map(|index| launch(family, index, rate, phase)).collect()
 }
 
 /// Toss number `index` of a family, of any size of rates, which turns by about `phase` (rad); `None` if there is none.
@@ -336,14 +346,12 @@ pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<Toss>
 
 fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<Toss> {
     let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
-    let (mut moments, mut rate) = (family.make)(&mut numbers);
-    moments.rotate_left((index % 3) as usize);
-    rate.rotate_left((index % 3) as usize);
+    let Drawn { body, rate, .. } = (family.make)(&mut numbers, index)?;
     let rate = Vector3::from(rate) * 10f64.powf(numbers.between(sizes[0], sizes[1]));
     let time = phase(&mut numbers) / rate.norm();
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
     let tilt = if index.is_multiple_of(2) { 0.0 } else { numbers.between(-3.0, 3.0) };
-    // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
-    let toss = Toss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
+    // A family may make a launch that needs no elliptic function.
+    let toss = Toss { body, launch: launch.with_tilt(tilt).ok()? };
     Reference::is_elliptic(&toss).then_some(toss)
 }

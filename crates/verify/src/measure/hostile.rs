@@ -8,12 +8,12 @@
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{Coin, CoinToss, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
 use super::families::{FAMILIES, flown_for};
 use super::subject::{Subject, by_kind};
-use super::tosses::{decades, one};
+use super::tosses::{decades, level_or_tilted, one, tossed};
 
 const SEED: u64 = 20_270_115;
 
@@ -33,68 +33,39 @@ pub(super) struct Flight {
     pub(super) by: Subject,
 }
 
-/// How many flights of coins each solver and scheme makes, and of each family of bodies; and the most steps of nearly all
-/// of them.
-pub(super) fn numbers(effort: Effort) -> ([u64; 2], f64) {
-    match effort {
-        Effort::Quick => ([40, 3], 2e4),
-        Effort::Standard => ([150, 12], 5e4),
-        // 100 000 of the solvers and schemes of this workspace.
-        Effort::Deep => ([6000, 820], 1e5),
-    }
-}
-
 /// One flight in a hundred takes up to so many steps, which is as many as the schemes of this workspace take.
 const MOST_STEPS: f64 = 9e5;
-
-/// The most steps of flight number `index`.
-fn most_steps(index: u64, of_most: f64) -> f64 {
-    if index % 100 == 99 { MOST_STEPS } else { of_most }
-}
 
 /// The random numbers for the flight `index` of a kind.
 fn stream(kind: u64, index: u64) -> ChaCha8Rng {
     super::tosses::stream(SEED + kind, index)
 }
 
-/// Flight number `index` of a coin by a solver and its `scheme`, most of them in about so many `steps` or fewer.
-///
-/// # Errors
-/// If the scheme takes neither a tolerance nor steps.
-pub(super) fn of_coin(entry: &SolverEntry, scheme: Scheme, index: u64, steps: f64) -> Result<Flight, InputError> {
-    let mut rng = stream(0, index);
-    let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps(index, steps), &mut rng);
-    let toss = coin(&mut rng, phase);
-    Ok(Flight { toss: toss.into(), by: settings.subject(entry, toss.launch.turn_rate())? })
-}
-
-/// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
-pub(super) fn of_body(
-    entry: &SolverEntry,
-    scheme: Scheme,
-    [family, index]: [u64; 2],
-    steps: f64,
-) -> Result<Option<Flight>, InputError> {
-    let mut rng = stream(1 + family, index);
-    let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps(index, steps), &mut rng);
-    let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
-    Ok(Some(Flight { toss, by: settings.subject(entry, toss.launch.turn_rate())? }))
+/// The flights of a solver and its `scheme`: of coins and of each family of bodies.
+pub(super) fn flights(entry: &SolverEntry, scheme: Scheme, effort: Effort) -> Result<Vec<Flight>, InputError> {
+    // The last ones are 100 000 of the solvers and schemes of this workspace.
+    let (coins, bodies, most_steps) = effort.of([(40, 3, 2e4), (150, 12, 5e4), (6000, 820, 1e5)]);
+    let flight = |kind: u64, index: u64, toss: &dyn Fn(&mut ChaCha8Rng, f64) -> Option<Toss>| {
+        let mut rng = stream(kind, index);
+        let settings = Settings::drawn(scheme, &mut rng);
+        let phase = settings.phase(if index % 100 == 99 { MOST_STEPS } else { most_steps }, &mut rng);
+        let toss = toss(&mut rng, phase)?;
+        Some(settings.subject(entry, toss.launch.turn_rate()).map(|by| Flight { toss, by }))
+    };
+    let coins = (0..coins).filter_map(|index| flight(0, index, &|rng, phase| Some(coin(rng, phase).into())));
+    let of_bodies = (0..bodies).flat_map(|index| (1..).zip(&FAMILIES).map(move |(kind, family)| (kind, family, index)));
+    // A family may have no such body.
+    let bodies =
+        of_bodies.filter_map(|(kind, family, index)| flight(kind, index, &|_, phase| flown_for(family, index, phase)));
+    coins.chain(bodies).collect()
 }
 
 /// `entry` with its `scheme`, by turns at the finest tolerance and at one between that and 1e-6, for `toss`.
-///
-/// # Errors
-/// As [`of_coin`].
 pub(super) fn of_toss(entry: &SolverEntry, scheme: Scheme, toss: &Toss, index: u64) -> Result<Subject, InputError> {
     Settings::drawn(scheme, &mut stream(200, index)).subject(entry, toss.launch.turn_rate())
 }
 
 /// `scheme` at the finest settings that take part.
-///
-/// # Errors
-/// As [`of_coin`].
 pub(super) fn finest(scheme: Scheme) -> Result<Stepping, InputError> {
     by_kind(scheme, FINEST, STEPS[3])
 }
@@ -162,13 +133,14 @@ fn coin(rng: &mut ChaCha8Rng, phase: f64) -> CoinToss {
         rate.x = 1.0;
     }
     let rate = rate * decades(rng, -3.0, 3.0);
-    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
-    thrown(k, rate, phase / rate.norm(), tilt)
+    of_ratio(rng, k, rate, phase)
 }
 
-fn thrown(k: f64, rate: Vector3<f64>, time: f64, tilt: f64) -> CoinToss {
-    let launch = Launch::new(rate, TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
-    CoinToss { coin: Coin::from_moments(1.0, k).expect("k is from 0 to 2"), launch: launch.expect("finite numbers") }
+/// A coin of inertia ratio `k` that turns by about `phase` (rad), level or tilted.
+fn of_ratio(rng: &mut ChaCha8Rng, k: f64, rate: Vector3<f64>, phase: f64) -> CoinToss {
+    let (tilt, flight) = (level_or_tilted(rng, 3.0), TimeOfFlight::Given(phase / rate.norm()));
+    let coin = Coin::from_moments(1.0, k);
+    coin.and_then(|coin| tossed(coin, rate, flight, tilt)).expect("k is from 0 to 2, and the numbers are finite")
 }
 
 /// A body of any of the families for a plan, which turns by up to 300 rad. `None` where the family has no such body.
@@ -191,7 +163,7 @@ pub(super) fn planned(index: u64) -> (ChaCha8Rng, CoinToss) {
     let across = decades(&mut rng, -3.0, 0.0);
     let rate = Vector3::from_fn(|_, _| rng.random_range(-across..across));
     let rate = Vector3::new(rate.x, rate.y, one(&mut rng, [-1.0, 1.0])) * decades(&mut rng, -1.0, 2.0);
-    let time = decades(&mut rng, 0.0, 3.0) / rate.norm();
-    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
-    (rng, thrown(0.0, rate, time, tilt))
+    let phase = decades(&mut rng, 0.0, 3.0);
+    let toss = of_ratio(&mut rng, 0.0, rate, phase);
+    (rng, toss)
 }

@@ -4,10 +4,10 @@
 //! | what | where |
 //! |---|---|
 //! | what is measured: a solver with its settings; the text of a toss; both together; how a worst case is repeated | [`subject`], `case`, [`run`], [`replay`] |
-//! | the judge: the reference of every toss, and numbers from outside the workspace | [`mod@reference`] |
-//! | claims and how they are measured | [`check`], [`checks`], [`measurement`] |
+//! | the judge: the reference of every toss, each computed once, and numbers from outside the workspace | [`mod@reference`], [`exact_landings`] |
+//! | claims, and how the trials of a subject become one measurement | [`check`], [`checks`], [`trial`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
-//! | tosses: random ones and of last bits, bodies by families, those of an adversary, flights at the finest tolerances; with their landings | `tosses`, `families`, `adversary`, `hostile`, `cases` |
+//! | tosses: random ones and of last bits, bodies by families, those of an adversary, flights at the finest tolerances | `tosses`, `families`, `adversary`, `hostile` |
 //! | flights of every solver: on random launches, for long times, and near the places where methods fail | [`survey`], `long_flights`, [`atlas`] |
 //! | error by step and by work; drift of conserved quantities | `convergence`, [`work_precision`], `drift` |
 //! | the accuracy of the planner | `planner` |
@@ -16,17 +16,16 @@
 mod adversary;
 pub mod atlas;
 pub mod case;
-pub(crate) mod cases;
 pub mod check;
 pub mod checks;
 pub mod context;
 pub(crate) mod convergence;
 mod drift;
 pub mod effort;
+pub mod exact_landings;
 mod families;
 mod hostile;
 pub(crate) mod long_flights;
-pub mod measurement;
 pub(crate) mod planner;
 pub mod reference;
 pub mod replay;
@@ -35,4 +34,5 @@ pub mod subject;
 pub mod survey;
 pub mod tables;
 mod tosses;
+pub mod trial;
 pub mod work_precision;

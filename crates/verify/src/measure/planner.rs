@@ -14,115 +14,105 @@ use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use toss::catalogue::CATALOGUE;
-use toss::planner::Model;
 use toss::{
     Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, SolveError, TimeOfFlight,
     Toss, TracePoint, Vector3, Want, level_speeds_of_heads,
 };
 
 use crate::measure::case;
-use crate::measure::effort::Effort;
+use crate::measure::context::Context;
 use crate::measure::reference::Reference;
-use crate::measure::tosses::{decades, stream};
+use crate::measure::tosses::{decades, level_or_tilted, stream, tossed};
 
 /// Seed of the scenes.
 const SEED: u64 = 12;
 
 /// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
-pub(crate) const ROUNDING: f64 = 0.5 * f64::EPSILON;
+const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// The result of one scene.
+/// What came of one scene.
 #[derive(Debug, Clone)]
-pub struct Solved {
+pub(crate) struct Planned {
     /// The scene's kind.
     pub kind: &'static str,
     /// The accuracy that was asked for.
-    pub accuracy: f64,
-    /// The model that was chosen; `None` if the planner refused the scene because no setting is accurate enough, or the
-    /// integrator does not solve its toss.
-    pub model: Option<&'static Model>,
-    /// The error of its answer.
-    pub error: f64,
-    /// The largest error of that model on the scene's family: its toss and, if the error there is far below the
-    /// expected one, some similar tosses. The error on a single toss may be small by luck.
-    pub error_of_family: f64,
-    /// The error that the plan expected.
-    pub expected: f64,
+    accuracy: f64,
+    /// `None` if the scene was refused because no setting is accurate enough, or the integrator does not solve its toss.
+    pub answered: Option<Answered>,
     /// The scene in words, its toss as text.
     pub input: String,
 }
 
-/// All scenes of a run.
-#[derive(Debug, Clone)]
-pub struct Trial {
-    /// The results of the scenes.
-    pub outcomes: Vec<Solved>,
+/// The errors of the answer to a scene.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Answered {
+    error: f64,
+    /// The largest error of the model on the scene's family: its toss and, if the error there is far below the
+    /// expected one, some similar tosses. The error on a single toss may be small by luck.
+    error_of_family: f64,
+    /// The error that the plan expected.
+    expected: f64,
 }
 
-impl Trial {
-    /// Solves a number of scenes that depends on `effort`.
-    ///
-    /// # Errors
-    /// If a scene cannot be solved, except because its accuracy is out of reach or the integrator does not solve its toss.
-    pub fn new(effort: Effort) -> anyhow::Result<Self> {
-        let (tosses, spaces) = match effort {
-            Effort::Quick => (1000, 6),
-            Effort::Standard => (10_000, 24),
-            Effort::Deep => (10_000, 100),
-        };
-        let tosses = (0..tosses).into_par_iter().map(|index| solve(&toss_scene(SEED, index)?));
-        let mut outcomes: Vec<Solved> = tosses.collect::<anyhow::Result<_>>()?;
-        for index in 0..spaces {
-            outcomes.push(solve_space(index)?);
-        }
-        Ok(Self { outcomes })
-    }
-}
-
-impl Solved {
+impl Planned {
     /// The error divided by the accuracy that was asked for.
-    pub fn error_by_accuracy(&self) -> f64 {
-        self.error / self.accuracy
+    pub(crate) fn error_by_accuracy(&self) -> Option<f64> {
+        self.answered.map(|answered| answered.error / self.accuracy)
     }
 
     /// The largest error on the scene's family divided by the expected one, which counts as at least [`ROUNDING`]; 0 if
     /// there is no error.
-    pub fn error_by_expected(&self) -> f64 {
-        if self.error_of_family == 0.0 { 0.0 } else { self.error_of_family / self.expected.max(ROUNDING) }
+    pub(crate) fn error_by_expected(&self) -> Option<f64> {
+        self.answered.map(|Answered { error_of_family, expected, .. }| match error_of_family {
+            0.0 => 0.0,
+            error => error / expected.max(ROUNDING),
+        })
     }
+}
 
-    /// Whether the expected error is at most 30 times `error`, which counts as at least [`ROUNDING`].
-    fn is_within_30(&self, error: f64) -> bool {
-        self.expected <= 30.0 * error.max(ROUNDING)
+/// Solves a number of random scenes that depends on the effort.
+pub(super) fn random_scenes(context: &Context) -> anyhow::Result<Vec<Planned>> {
+    let (tosses, spaces) = context.effort.of([(1000, 6), (10_000, 24), (10_000, 100)]);
+    let tosses = (0..tosses).into_par_iter().map(|index| solve(&toss_scene(SEED, index)?));
+    let mut planned: Vec<Planned> = tosses.collect::<anyhow::Result<_>>()?;
+    for index in 0..spaces {
+        planned.push(solve_space(index)?);
+    }
+    Ok(planned)
+}
+
+/// What was planned or answered; `None` if the accuracy is out of reach, or the integrator does not solve the toss.
+fn unless_refused<T>(found: Result<T, Error>) -> Result<Option<T>, Error> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(Error::Input(InputError::OutOfRange { field: "accuracy", .. }) | Error::Solve(_)) => Ok(None),
+        Err(error) => Err(error),
     }
 }
 
 /// Solves the scene as planned.
-fn solve(scene: &TossScene) -> anyhow::Result<Solved> {
-    let mut outcome = Solved {
-        kind: scene.kind,
-        accuracy: scene.scene.accuracy,
-        model: None,
-        error: 0.0,
-        error_of_family: 0.0,
-        expected: 0.0,
-        input: input(&scene.scene, &case::text(&scene.toss.into())),
-    };
-    let choice = match scene.scene.plan() {
-        Ok(decision) => decision.choice,
-        Err(Error::Input(InputError::OutOfRange { field: "accuracy", .. }) | Error::Solve(_)) => return Ok(outcome),
-        Err(error) => return Err(error.into()),
-    };
-    let solution = scene.scene.solve()?;
+fn solve(TossScene { kind, scene, toss }: &TossScene) -> anyhow::Result<Planned> {
+    let (accuracy, input) = (scene.accuracy, input(scene, &case::text(&(*toss).into())));
+    let planned = |answered| Planned { kind, accuracy, answered, input };
+    let Some(plan) = unless_refused(scene.plan())? else { return Ok(planned(None)) };
+    let (choice, solution) = (plan.choice, scene.solve()?);
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
-    outcome.model = Some(choice.model);
-    outcome.expected = choice.expected_error;
-    outcome.error = Truth::new(&scene.toss.into())?.error(&scene.scene, &solution.answer)?;
-    outcome.error_of_family = outcome.error;
-    if !outcome.is_within_30(outcome.error) {
-        outcome.error_of_family = outcome.error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0));
-    }
-    Ok(outcome)
+    let error = Truth::new(&(*toss).into())?.error(scene, &solution.answer)?;
+    let expected = choice.expected_error;
+    let is_far_below = expected > 30.0 * error.max(ROUNDING);
+    let error_of_family =
+        if is_far_below { error.max(largest_of_neighbours(&choice, scene, toss)?.unwrap_or(0.0)) } else { error };
+    Ok(planned(Some(Answered { error, error_of_family, expected })))
+}
+
+/// Solves a scene about `toss` that is hostile to integrators, of which the expected error is not asked.
+pub(super) fn solve_hostile(kind: &'static str, scene: &Scene, toss: &Toss, input: String) -> anyhow::Result<Planned> {
+    let answer = unless_refused(scene.plan().and_then(|plan| plan.choice.run(scene)))?;
+    let answered = |answer: Answer| {
+        let error = Truth::new(toss)?.error(scene, &answer)?;
+        anyhow::Ok(Answered { error, error_of_family: f64::NAN, expected: f64::NAN })
+    };
+    Ok(Planned { kind, accuracy: scene.accuracy, answered: answer.map(answered).transpose()?, input })
 }
 
 /// The scene in words; `of` names its toss or space.
@@ -133,59 +123,39 @@ fn input(scene: &Scene, of: &str) -> String {
 }
 
 /// Samples a space as planned.
-fn solve_space(index: u64) -> anyhow::Result<Solved> {
+fn solve_space(index: u64) -> anyhow::Result<Planned> {
     const POINTS: u64 = 1 << 20;
     let space = space(SEED, index)?;
-    let scene = Scene::new(Want::Probability(space), accuracy_of_a_probability(SEED, index));
-    let planned = scene.plan()?.choice;
-    let Answer::Probability(estimate) = planned.run(&scene)? else { bail!("a probability was planned") };
+    let scene = Scene::new(Want::Probability(space), decades(&mut stream(SEED, index), -3.0, -1.0));
+    let choice = scene.plan()?.choice;
+    let Answer::Probability(estimate) = choice.run(&scene)? else { bail!("a probability was planned") };
     let error = (estimate.probability - true_probability(&space, POINTS)?).abs();
-    Ok(Solved {
-        kind: "probability",
-        accuracy: scene.accuracy,
-        model: Some(planned.model),
-        error,
-        error_of_family: error,
-        expected: planned.expected_error,
-        input: input(&scene, &format!("space {index} of seed {SEED}")),
-    })
+    let answered = Some(Answered { error, error_of_family: error, expected: choice.expected_error });
+    let input = input(&scene, &format!("space {index} of seed {SEED}"));
+    Ok(Planned { kind: "probability", accuracy: scene.accuracy, answered, input })
 }
 
 /// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one.
-fn largest_of_neighbours(choice: &Choice, scene: &TossScene) -> anyhow::Result<Option<f64>> {
+fn largest_of_neighbours(choice: &Choice, scene: &Scene, toss: &CoinToss) -> anyhow::Result<Option<f64>> {
     const NEIGHBOURS: u64 = 8;
     let mut largest = 0.0_f64;
     for index in 0..NEIGHBOURS {
-        let toss = neighbour(&scene.toss, SEED, index)?;
-        let near = Scene { want: scene.scene.want.of(toss), ..scene.scene.clone() };
+        let toss = neighbour(toss, SEED, index)?;
+        let near = Scene { want: scene.want.of(toss), ..scene.clone() };
         let Ok(answer) = choice.run(&near) else { return Ok(None) };
         largest = largest.max(Truth::new(&toss.into())?.error(&near, &answer)?);
     }
     Ok(Some(largest))
 }
 
-impl Trial {
-    /// The kinds of scenes, in the order in which they first appear.
-    pub fn kinds(&self) -> Vec<&'static str> {
-        let mut kinds: Vec<&str> = Vec::new();
-        for outcome in &self.outcomes {
-            if !kinds.contains(&outcome.kind) {
-                kinds.push(outcome.kind);
-            }
-        }
-        kinds
-    }
-}
-
 /// A scene about a toss.
-#[derive(Debug, Clone)]
-pub(crate) struct TossScene {
+struct TossScene {
     /// Its kind: what is wanted, or `integrator` if the scene asks for one.
-    pub kind: &'static str,
+    kind: &'static str,
     /// The scene.
-    pub scene: Scene,
+    scene: Scene,
     /// Its toss.
-    pub toss: CoinToss,
+    toss: CoinToss,
 }
 
 /// A random toss. The coin is from the catalogue or any other; the rates are up to 60 rad/s or, in a third of the
@@ -204,14 +174,14 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
         1 => Vector3::new(0.1 * any.x, 0.1 * any.y, any.z),
         _ => any,
     };
-    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..PI) };
+    let tilt = level_or_tilted(rng, PI);
     let (speed, gravity) = (rng.random_range(1.0..6.0), 9.81);
     let time = match rng.random_range(0..6) {
         0 => TimeOfFlight::thrown(speed, gravity, Some(rng.random_range(-0.9..1.5) * speed * speed / (2.0 * gravity))),
         1 => TimeOfFlight::Given(decades(rng, -2.0, 1.0)),
         _ => TimeOfFlight::thrown(speed, gravity, None),
     };
-    Ok(CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? })
+    tossed(coin, rate, time, tilt)
 }
 
 /// A toss that differs from `toss` by up to 1 % in each rate and in time. Its errors are of the same size on average,
@@ -227,7 +197,7 @@ fn neighbour(toss: &CoinToss, seed: u64, index: u64) -> Result<CoinToss, InputEr
 /// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
 /// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
 /// 1e-2 to 1e-11.
-pub(crate) fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     let mut rng = stream(seed, index);
     let toss = random_toss(&mut rng)?;
     let kinds =
@@ -253,7 +223,7 @@ pub(crate) fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError>
 
 /// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
 /// of five have a range of speeds.
-pub(crate) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
+pub(super) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     let mut rng = stream(seed, index);
     let mut range = |free: f64, from: f64, to: f64, width: f64| {
         let lo = rng.random_range(from..to);
@@ -275,30 +245,22 @@ pub(crate) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     Space::parse(coin, &texts)
 }
 
-/// The accuracy that scene number `index` asks of a probability, from 1e-1 to 1e-3.
-pub(crate) fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
-    decades(&mut stream(seed, index), -3.0, -1.0)
-}
-
 /// The exact answer to every scene about one toss.
-pub(crate) struct Truth {
+struct Truth {
     landing: Reference,
     toss: Toss,
 }
 
 impl Truth {
     /// Solves `toss`.
-    ///
-    /// # Errors
-    /// [`SolveError`] if there is no reference of it.
-    pub(crate) fn new(toss: &Toss) -> Result<Self, SolveError> {
+    fn new(toss: &Toss) -> Result<Self, SolveError> {
         Ok(Self { landing: Reference::of(toss)?, toss: *toss })
     }
 
     /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
     /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
     /// most twice the scene's accuracy.
-    pub(crate) fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
+    fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
         let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
         Ok(match answer {
             Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
@@ -338,7 +300,7 @@ impl Truth {
 /// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the
 /// intervals of speeds that land heads if only the speed is free, otherwise by `points` launches with another seed,
 /// many more than the models use.
-pub(crate) fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
+fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
     const OTHER_SEED: u64 = 987_654_321;
     let free: Vec<Coordinate> = space.free().collect();
     let scrambled = Scrambled::new(points, OTHER_SEED);
@@ -361,7 +323,7 @@ fn share_by_intervals(space: &Space) -> Result<f64, Error> {
     let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
     let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
     let coin = space.coin().ok_or(NO_COIN)?;
-    let toss = CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let toss = tossed(coin, rate, time, value(Coordinate::Tilt))?;
     let intervals = level_speeds_of_heads(&toss, slowest)?;
     let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
     Ok(length / (fastest - slowest))

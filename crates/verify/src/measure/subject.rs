@@ -105,9 +105,6 @@ pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
 }
 
 /// `scheme` with the tolerance or, if it takes none, with steps of this length (s).
-///
-/// # Errors
-/// For a tolerance or step outside its range.
 pub(super) fn by_kind(scheme: Scheme, tolerance: f64, step: f64) -> Result<Stepping, InputError> {
     if scheme.is_adaptive() { Stepping::adaptive(scheme, tolerance) } else { Stepping::fixed(scheme, step) }
 }
@@ -134,9 +131,6 @@ pub fn subjects(
 }
 
 /// The solver that proves what it integrates, at a tolerance.
-///
-/// # Errors
-/// For a tolerance outside its range.
 pub(crate) fn taylor(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
     let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
     let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;

@@ -9,15 +9,14 @@ use dynamics::Toss;
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
-use toss::{Coin, CoinToss, Landing, Launch, SolveError};
+use toss::{Coin, CoinToss, Landing, SolveError};
 
-use crate::measure::cases::Case;
-use crate::measure::effort::Effort;
-use crate::measure::families::{FAMILIES, TOSSED, launches};
+use crate::measure::context::Context;
+use crate::measure::exact_landings::ExactLandings;
+use crate::measure::families::{FAMILIES, Family, TOSSED, launches};
 use crate::measure::reference::Reference;
-use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
-use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw};
+use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw, tossed};
 
 /// Seed of the random launches; its value has no meaning.
 const SEED: u64 = 20_260_101;
@@ -37,11 +36,8 @@ pub struct Survey {
     pub landings: Vec<Landings>,
 }
 
-/// What a solver answered to a toss.
-pub type Solved = Result<Landing, SolveError>;
-
 /// What a solver answered to each toss of a survey.
-pub type Landings = Vec<Solved>;
+pub type Landings = Vec<Result<Landing, SolveError>>;
 
 impl Survey {
     /// Solves `launches` random launches with every subject.
@@ -49,79 +45,50 @@ impl Survey {
     /// # Errors
     /// Never: the space of launches is fixed and valid.
     pub fn random(subjects: &[Subject], launches: u64) -> anyhow::Result<Self> {
-        Self::of(subjects, launches_of_the_survey(launches)?, Vec::new())
+        Ok(Self::of(subjects, random_launches(launches)?, Vec::new(), &ExactLandings::default()))
     }
 
     /// Solves tosses of bodies of every family with every subject.
-    pub(crate) fn of_bodies(subjects: &[Subject], effort: Effort) -> anyhow::Result<Self> {
-        let number = match effort {
-            Effort::Quick => 20,
-            Effort::Standard => 100,
-            Effort::Deep => 15_000,
-        };
-        let of_family = |family| launches(family, number, TOSSED).map(move |toss| (toss, family.name));
+    pub(crate) fn of_bodies(context: &Context) -> Self {
+        let number = context.effort.of([20, 100, 15_000]);
+        let of_family =
+            |family: &'static Family| launches(family, number, TOSSED).into_iter().map(move |toss| (toss, family.name));
         let (tosses, families) = FAMILIES.iter().flat_map(of_family).unzip();
-        Self::of(subjects, tosses, families)
+        Self::of(&context.subjects, tosses, families, &context.exact)
     }
 
-    /// Solves `tosses`, of these families, with every subject.
-    ///
-    /// # Errors
-    /// Never so far.
-    pub fn of(subjects: &[Subject], tosses: Vec<Toss>, families: Vec<&'static str>) -> anyhow::Result<Self> {
-        let exact = tosses.par_iter().map(|toss| Reference::of(toss).ok().map(Arc::new)).collect();
-        Ok(Self::flown(subjects, tosses, families, exact))
+    /// Solves `toss` with those of the subjects that `is_asked` for by their names.
+    pub(crate) fn of_one(context: &Context, toss: &Toss, is_asked: &dyn Fn(&str) -> bool) -> Self {
+        let one = Self::of(&[], vec![*toss], Vec::new(), &context.exact);
+        let fly = |by: &Subject| if is_asked(&by.name) { vec![by.solver.land(toss)] } else { Vec::new() };
+        Self { landings: context.subjects.iter().map(fly).collect(), ..one }
     }
 
-    /// Solves `cases` with every subject.
-    pub(crate) fn of_cases<'a>(subjects: &[Subject], cases: impl Iterator<Item = &'a Case>) -> anyhow::Result<Self> {
-        let (tosses, exact) = cases.map(|case| (case.toss, case.reference.clone())).unzip();
-        Ok(Self::flown(subjects, tosses, Vec::new(), exact))
-    }
-
-    fn flown(
-        subjects: &[Subject],
-        tosses: Vec<Toss>,
-        families: Vec<&'static str>,
-        exact: Vec<Option<Arc<Reference>>>,
-    ) -> Self {
+    /// Solves `tosses`, of these families, with every subject. A solver that refuses bodies has no landings of them.
+    pub fn of(subjects: &[Subject], tosses: Vec<Toss>, families: Vec<&'static str>, exact: &ExactLandings) -> Self {
+        let exact = tosses.par_iter().map(|toss| exact.of(toss)).collect();
         let is_of_bodies = tosses.iter().any(|toss| toss.coin().is_none());
         let fly = |subject: &Subject| {
             let landings: Landings = tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect();
-            let is_refused = |landing: &Solved| matches!(landing, Err(SolveError::NotSymmetric { .. }));
+            let is_refused = |landing: &Result<_, _>| matches!(landing, Err(SolveError::NotSymmetric { .. }));
             if is_of_bodies && landings.iter().any(is_refused) { Vec::new() } else { landings }
         };
         let landings = subjects.par_iter().map(fly).collect();
         Self { tosses, families, exact, landings }
-    }
-
-    /// The errors that are allowed `subject`, which has these `landings`, on toss number `index`.
-    ///
-    /// # Errors
-    /// That of the landing.
-    pub fn allowance(
-        &self,
-        subject: &Subject,
-        landings: &Landings,
-        index: usize,
-    ) -> Result<Option<Allowance>, SolveError> {
-        let landing = landings[index].as_ref().map_err(Clone::clone)?;
-        Ok(Allowance::new(subject, &self.tosses[index], landing.error))
     }
 }
 
 /// The random launches: rates of up to 60 rad/s on each axis, and times of flight as of speeds of 3 to 5 m/s at 9.81 m/s², but
 /// [given in every form](throw). One in 25 is slow: all its rates are below 1e-3 rad/s. Of each four launches two start
 /// horizontal and two are tilted by an angle between 0 and π.
-fn launches_of_the_survey(launches: u64) -> anyhow::Result<Vec<Toss>> {
+pub(super) fn random_launches(launches: u64) -> anyhow::Result<Vec<Toss>> {
     let axes = [(RateX, "-60:60"), (RateY, "-60:60"), (RateZ, "-60:60"), (Speed, "3:5")];
     let space = Space::parse(Coin::PAPER, &axes)?;
     let vary = |(turn, drawn): (u64, CoinToss)| {
         let tilt = if turn % 4 >= 2 { PI * evenly(turn, GOLDEN) } else { 0.0 };
         let slower = if turn % 25 == 24 { 10f64.powf(-10.0 + 5.0 * evenly(turn, SQRT_3)) } else { 1.0 };
         let flight = throw(drawn.launch.time_of_flight(), turn);
-        let launch = Launch::new(drawn.launch.rate() * slower, flight)?.with_tilt(tilt)?;
-        Ok(CoinToss { coin: coin(turn)?, launch }.into())
+        Ok(tossed(coin(turn)?, drawn.launch.rate() * slower, flight, tilt)?.into())
     };
     (0..).zip(random_flights(&space, SEED, launches)?).map(vary).collect()
 }

@@ -71,10 +71,22 @@ pub(super) fn throw(flight: TimeOfFlight, turn: u64) -> TimeOfFlight {
     if valid && as_long { thrown } else { TimeOfFlight::Given(time) }
 }
 
+/// The toss of `coin` at `rate` (rad/s) from a tilt (rad).
+pub(super) fn tossed(
+    coin: Coin,
+    rate: impl Into<Vector3<f64>>,
+    flight: TimeOfFlight,
+    tilt: f64,
+) -> Result<CoinToss, InputError> {
+    Ok(CoinToss { coin, launch: Launch::new(rate, flight)?.with_tilt(tilt)? })
+}
+
+/// Level half of the time, otherwise tilted by up to `most` (rad).
+pub(super) fn level_or_tilted(rng: &mut ChaCha8Rng, most: f64) -> f64 {
+    if rng.random() { 0.0 } else { rng.random_range(0.0..most) }
+}
+
 /// The first `number` independent launches of `space`, whose axes are ranges or single values.
-///
-/// # Errors
-/// [`InputError`] for an axis with a normal distribution.
 pub(super) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Vec<CoinToss>, InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..number).map(|_| flight(space, &mut rng)).collect()
@@ -106,11 +118,7 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
 
 /// The number of tosses from which a check derives the sizes of its sets.
 pub(super) fn tries(effort: Effort) -> u64 {
-    match effort {
-        Effort::Quick => 1000,
-        Effort::Standard => 8000,
-        Effort::Deep => 350_000,
-    }
+    effort.of([1000, 8000, 350_000])
 }
 
 /// `number` random tosses, of five coins in turn, every second one tilted, and [thrown in every form](throw), whose
@@ -123,8 +131,7 @@ pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<C
     let vary = |(index, toss): (usize, CoinToss)| {
         let tilt = if index % 2 == 0 { 0.0 } else { 2.0 * toss.launch.attitude().components()[1].asin() };
         let flight = throw(toss.launch.time_of_flight(), index as u64);
-        let launch = Launch::new(toss.launch.rate(), flight)?.with_tilt(tilt)?;
-        Ok(CoinToss { coin: coins[index / 5 % 5].clone()?, launch })
+        Ok(tossed(coins[index / 5 % 5].clone()?, toss.launch.rate(), flight, tilt)?)
     };
     random_flights(&space, seed, number)?.into_iter().enumerate().map(vary).collect()
 }
@@ -150,8 +157,7 @@ pub(super) fn corners() -> anyhow::Result<Vec<CoinToss>> {
         for rate in rates {
             for tilt in tilts {
                 for time in times {
-                    let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-                    tosses.push(CoinToss { coin: Coin::from_moments(1.0, k)?, launch });
+                    tosses.push(tossed(Coin::from_moments(1.0, k)?, rate, TimeOfFlight::Given(time), tilt)?);
                 }
             }
         }

@@ -39,9 +39,6 @@ impl Pool {
     }
 
     /// What the program answers to a question.
-    ///
-    /// # Errors
-    /// Why there is none, in words of the program or on what it did instead; at once if it was given up.
     pub(super) fn ask(&self, question: &str) -> Reply {
         let (idle, start) = {
             let mut state = self.state();

@@ -40,9 +40,6 @@ pub(super) fn question(toss: &CoinToss, flight: &Flight, tolerance: f64) -> Stri
 }
 
 /// The answer in `line` to the question number `id`.
-///
-/// # Errors
-/// What is wrong with the line, if it is no answer to that question.
 pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
     let columns: Vec<&str> = line.trim().split(',').map(str::trim).collect();
     if let [number, "failed", ..] = columns[..] {

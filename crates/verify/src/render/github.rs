@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::report::{Cost, ENOUGH, Reached};
+use super::report::{Cost, ENOUGH, Reached, Verdict};
 use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
@@ -63,10 +63,10 @@ fn property(text: &str) -> String {
 /// solver reaches at which cost, one line a family, and folded one line a check.
 pub(crate) fn summary(report: &Report) -> String {
     let failing = report.failing();
-    let verdict = match (report.passed, report.worse().is_empty()) {
-        (true, true) => "✅ PASS",
-        (true, false) => "⚠️ WORSE than the baseline",
-        (false, _) => "❌ FAIL",
+    let verdict = match report.verdict() {
+        Verdict::Pass => "✅ PASS",
+        Verdict::Worse => "⚠️ WORSE than the baseline",
+        Verdict::Fail => "❌ FAIL",
     };
     let mut out = format!("## {verdict}: {} of {} rows pass\n\n", report.rows.len() - failing.len(), report.rows.len());
     let _ = writeln!(out, "{}\n", cell(&report.pattern));

@@ -14,7 +14,7 @@ use crate::measure::run::Answer;
 use crate::measure::work_precision::YARDSTICK;
 use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
-use crate::render::report::{Cost, ENOUGH, Reached};
+use crate::render::report::{Cost, ENOUGH, Reached, Verdict};
 
 const STYLE: &str = include_str!("report.css");
 
@@ -88,10 +88,10 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
 
 /// The verdict, and when, where and of what it was found.
 fn answer(report: &Report) -> Markup {
-    let (word, class) = match (report.passed, report.worse().is_empty()) {
-        (true, true) => ("PASS", "pass"),
-        (true, false) => ("WORSE", "fail"),
-        (false, _) => ("FAIL", "fail"),
+    let (word, class) = match report.verdict() {
+        Verdict::Pass => ("PASS", "pass"),
+        Verdict::Worse => ("WORSE", "fail"),
+        Verdict::Fail => ("FAIL", "fail"),
     };
     html! {
         h1 { "unfair-toss: verification" }

@@ -15,9 +15,6 @@ use crate::judge::baseline::Move;
 const WORSE: &str = "worse than the baseline";
 
 /// Renders `report`.
-///
-/// # Errors
-/// If the XML can't be written, which plain rows never cause.
 pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
     for block in Group::checks(&report.rows) {

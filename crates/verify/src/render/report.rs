@@ -11,7 +11,7 @@ use super::words::{comparison, reserve, worst_first};
 use crate::host::Host;
 use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
-use crate::judge::{LeftOut, Row, proposal};
+use crate::judge::{LeftOut, Row, limits};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
@@ -176,7 +176,7 @@ impl Report {
     /// Limits for the rows that pass without one, as the text of a `limits.toml`: twice what was measured, rounded up to
     /// one digit. `None` if every row that passes has a limit.
     pub fn proposed_limits(&self) -> Option<String> {
-        proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
+        limits::proposed(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
     }
 
     /// What the baseline would be after this run.

@@ -12,8 +12,8 @@ use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::atlas::conditioning::Conditioning;
-use crate::measure::measurement::Measurement;
 use crate::measure::run::Run;
+use crate::measure::trial::Measurement;
 use crate::{CHECKS, Check};
 
 /// The line for a check that has just ended, with its rows and its time.

@@ -1,5 +1,5 @@
-//! The judge judges alone: no file of the reference may name code that it judges, and no check may take its landings from
-//! elsewhere than the reference.
+//! The judge judges alone: no file of the reference may name code that it judges, no check may take its landings from
+//! elsewhere than the reference, and no module uses those that come after it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -86,5 +86,28 @@ fn no_check_has_a_judge_of_its_own() {
         assert!(!text.contains("Reference {") && !text.contains("ByMotion"), "{}", path.display());
         // The solver of the exact motion is a subject, never what errors are taken against.
         assert_eq!(text.lines().find(|line| line.contains("ExactSolver.")), None, "{}", path.display());
+    }
+}
+
+/// Data flows from measuring to judging to rendering, and never back. The compiler does not check this, because all three are
+/// modules of one crate.
+#[test]
+fn no_module_uses_the_modules_that_come_after_it() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for (folder, forbidden) in [
+        ("measure", ["crate::judge", "crate::render", "crate::bench", "crate::suite"].as_slice()),
+        ("judge", &["measure::checks", "crate::render", "crate::bench", "crate::suite"]),
+        ("render", &["measure::checks", "crate::bench", "crate::suite"]),
+        ("bench", &["crate::measure", "crate::judge", "crate::render"]),
+    ] {
+        let sources = sources(&root.join(folder));
+        assert!(sources.len() > 3, "{folder}");
+        for path in sources {
+            // Limits have ceilings, which the list of the checks gives; nobody but it may be used of them.
+            let text = fs::read_to_string(&path).expect("text").replace("measure::checks::CHECKS", "");
+            for module in forbidden {
+                assert!(!text.contains(module), "{} uses {module}", path.display());
+            }
+        }
     }
 }

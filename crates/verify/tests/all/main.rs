@@ -5,7 +5,6 @@ mod as_given;
 mod baseline;
 mod cli;
 mod judge_alone;
-mod layers;
 #[cfg(target_os = "linux")]
 mod pages;
 mod paper_audit;

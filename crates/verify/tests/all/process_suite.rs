@@ -21,14 +21,10 @@ fn verify(arguments: &[&str]) -> (String, Option<i32>) {
 
 #[test]
 fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
-    let nonsense = "where an answer is expected";
+    // What else a program may do, `process.rs` asks of its solver.
     for (command, why) in [
-        ("true", "ended (exit status: 0)"),
-        ("false", "ended (exit status: 1)"),
         ("cat", "wrote \"id,i1,i3"),
-        ("yes", "wrote \"y\""),
         ("sleep 1000", "gave no answer within 3 s"),
-        (&*answering("echo $id"), nonsense),
         (&*answering("echo $id,nan,0,0,0"), "the norm of the quaternion = NaN"),
     ] {
         let began = Instant::now();

@@ -9,38 +9,22 @@ use verify::judge::limits::Limits;
 use verify::judge::time::Timing;
 use verify::measure::replay::Commands;
 use verify::watch::{self, End};
-use verify::{Basis, Check, Context, Effort, Judges, Measure, Measurement, Row};
+use verify::{Check, Context, Effort, Measure, Measurement, Row};
 
-const QUICK: Check = Check {
-    id: "quick",
-    claim: "",
-    basis: Basis::Invariant,
-    judges: Judges::Library,
-    ceiling: 10.0,
-    unit: "1",
-    measure: Measure::Own(|_| Ok(vec![Measurement::figure("all", 0.0, 1, String::new())])),
-};
+const QUICK: Measure = Measure::Own(|_| Ok(vec![Measurement::figure("all", 0.0, 1, String::new())]));
 
-static FINE: Check = QUICK;
-static PANICS: Check = Check { id: "panics", measure: Measure::Own(|_| panic!("out of order")), ..QUICK };
-static WAITS: Check = Check {
-    id: "waits",
-    measure: Measure::Own(|_| {
-        loop {
-            std::thread::sleep(Duration::from_secs(1));
-        }
-    }),
-    ..QUICK
-};
-static COMPUTES: Check = Check {
-    id: "computes",
-    measure: Measure::Own(|_| {
-        loop {
-            std::hint::spin_loop();
-        }
-    }),
-    ..QUICK
-};
+static FINE: Check = Check::of_library("quick", QUICK);
+static PANICS: Check = Check::of_library("panics", Measure::Own(|_| panic!("out of order")));
+static WAITS: Check =
+    Check::of_library("waits", Measure::Own(|_| for_ever(|| std::thread::sleep(Duration::from_secs(1)))));
+static COMPUTES: Check = Check::of_library("computes", Measure::Own(|_| for_ever(std::hint::spin_loop)));
+
+fn for_ever<T>(wait: fn()) -> T {
+    loop {
+        wait();
+    }
+}
+
 /// What became of each of `checks`, with limits of 50 s times `factor`.
 fn run(checks: &[&'static Check], factor: f64) -> Vec<(String, Timing, End)> {
     let context = Context::new(&[ExactSolver::entry()], Effort::Quick).expect("the reference numbers");

@@ -10,6 +10,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use toss::{Body, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Toss};
 
+use crate::measure::tosses::tossed;
+
 /// A place where some method fails.
 pub struct Hazard {
     /// Its id, `F1` to `F12`.
@@ -151,8 +153,7 @@ fn coin(rate: [f64; 3], tilt: f64, time: f64) -> Result<Toss, InputError> {
 }
 
 fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<CoinToss, InputError> {
-    let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-    Ok(CoinToss { coin: Coin::PAPER, launch })
+    tossed(Coin::PAPER, rate, TimeOfFlight::Given(time), tilt)
 }
 
 /// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.

@@ -8,42 +8,30 @@ use toss::{
     SolverEntry, Tilt, TimeOfFlight, Toss, Tosses, Vector3, certify,
 };
 
-use crate::measure::check::{Basis, Check, Measure};
+use crate::measure::check::Basis::CrossMethod;
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
-use crate::measure::effort::Effort;
-use crate::measure::measurement::Measurement;
 use crate::measure::reference::Reference;
 use crate::measure::subject::{Subject, usual};
+use crate::measure::trial::Measurement;
 
-pub(super) const GRID_LAUNCHES: Check = Check {
-    id: "grid-launches",
-    claim: "A grid holds the launches of its definition in their order, and no others: along an axis from lo to hi \
-            the n points lo + i (hi - lo)/(n - 1), both ends included, the speed varying fastest. Measured: the \
-            largest distance of a coordinate from its place, divided by hi - lo.",
-    ceiling: 1e-12,
-    measure: Measure::Own(|_| Ok(vec![grid_launches()?])),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const GRID_COUNTS: Check = Check {
-    id: "grid-counts",
-    claim: "On a grid as many launches land heads and tails as the 256-bit reference counts over the grid's \
-            definition. Measured: the sum of the differences; one launch is enough to fail.",
-    unit: "launches",
-    measure: Measure::Own(grid_counts),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const ONE_BY_ONE: Check = Check {
-    id: "counts-one-by-one",
-    claim: "A plan counts as many heads, tails and undecided launches as its launches give one by one, for numbers of \
-            launches that fill no whole block or register. Measured: the sum of the differences over all plans; one \
-            launch is enough to fail.",
-    basis: Basis::CrossMethod,
-    unit: "launches",
-    measure: Measure::Own(one_by_one),
-    ..Check::OF_SOLVERS
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("grid-launches", Own(|_| Ok(vec![grid_launches()?]))).up_to(1e-12, "1").claims(
+        "A grid holds the launches of its definition in their order, and no others: along an axis from lo to hi the n \
+         points lo + i (hi - lo)/(n - 1), both ends included, the speed varying fastest. Measured: the largest \
+         distance of a coordinate from its place, divided by hi - lo.",
+    ),
+    Check::of_library("grid-counts", Own(grid_counts)).up_to(0.0, "launches").claims(
+        "On a grid as many launches land heads and tails as the 256-bit reference counts over the grid's definition. \
+         Measured: the sum of the differences; one launch is enough to fail.",
+    ),
+    Check::of_solvers("counts-one-by-one", Own(one_by_one)).up_to(0.0, "launches").by(CrossMethod).claims(
+        "A plan counts as many heads, tails and undecided launches as its launches give one by one, for numbers of \
+         launches that fill no whole block or register. Measured: the sum of the differences over all plans; one \
+         launch is enough to fail.",
+    ),
+];
 
 /// The axes of a grid as (coordinate, lo, hi, n), from the slowest to the fastest varying.
 type Axes = [(Coordinate, f64, f64, u32)];
@@ -154,10 +142,7 @@ const DRAWN: [(Coordinate, &str); 4] =
     [(Coordinate::RateX, "1:40"), (Coordinate::RateY, "-9:9"), (Coordinate::RateZ, "5"), (Coordinate::Speed, "2:3")];
 
 fn one_by_one(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let sizes = match context.effort {
-        Effort::Quick => &SIZES[..10],
-        Effort::Standard | Effort::Deep => &SIZES[..],
-    };
+    let sizes = &SIZES[..context.effort.of([10, SIZES.len(), SIZES.len()])];
     let exact = counted(ExactSolver::NAME, &Sampler::exact(), sizes, |toss| Ok(certify(toss)?.outcome()))?;
     let mut rows = vec![exact.of_the_library(), batches(sizes)?.of_the_library()];
     for entry in context.registry.iter().filter(|entry| entry.integrates()) {

@@ -15,21 +15,19 @@ use sampling::{Axis, Coordinate, Plan, Rest, Sampler, Scrambled, Space, clopper_
 use toss::{Body, Coin};
 
 use super::probability::in_the_box_of_four;
-use crate::measure::check::{Basis, Check, Measure};
+use crate::measure::check::Basis::CrossMethod;
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
-use crate::measure::measurement::Measurement;
 use crate::measure::reference::outside::ReferenceProbabilities;
+use crate::measure::trial::Measurement;
 
-pub(super) const COVERAGE: Check = Check {
-    id: "interval-coverage",
-    claim: "At least 94 % of the intervals for P(heads) at the 95 % level contain it, for each method, number of \
-            coordinates, number of launches and range of probabilities, and in all sums of these. Measured: how far a \
-            fraction is below 0.94 beyond chance, of which a fraction of 0.94 has 1e-7; any shortfall fails.",
-    basis: Basis::CrossMethod,
-    measure: Measure::Own(coverage),
-    ..Check::OF_LIBRARY
-};
+pub(super) const CHECKS: &[Check] = &[Check::of_library("interval-coverage", Own(coverage)).by(CrossMethod).claims(
+    "At least 94 % of the intervals for P(heads) at the 95 % level contain it, for each method, number of \
+     coordinates, number of launches and range of probabilities, and in all sums of these. Measured: how far a \
+     fraction is below 0.94 beyond chance, of which a fraction of 0.94 has 1e-7; any shortfall fails.",
+)];
 
 /// The least fraction of intervals that have to contain the probability.
 const LEAST: f64 = 0.94;
@@ -73,6 +71,7 @@ impl Method {
 
 /// How much is tried: spaces for each method, number of coordinates and range of probabilities; seeds for each space;
 /// numbers of launches; and the launches from which the probability is known.
+#[derive(Clone, Copy)]
 struct Extent {
     spaces: usize,
     seeds: u64,
@@ -83,11 +82,9 @@ struct Extent {
 impl Extent {
     fn of(effort: Effort) -> Self {
         const POINTS: [u64; 4] = [64, 1000, 4096, 65_536];
-        match effort {
-            Effort::Quick => Self { spaces: 1, seeds: 12, points: &POINTS[..3], truth: 1 << 17 },
-            Effort::Standard => Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 },
-            Effort::Deep => Self { spaces: 6, seeds: 25, points: &POINTS, truth: 1 << 20 },
-        }
+        let standard = Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 };
+        let quick = Self { seeds: 12, points: &POINTS[..3], truth: 1 << 17, ..standard };
+        effort.of([quick, standard, Self { spaces: 6, truth: 1 << 20, ..standard }])
     }
 }
 
@@ -216,6 +213,15 @@ fn space_with(
 /// Intervals that were tried and those of them that contained the probability, by what they have in common.
 type Cells = BTreeMap<String, [u64; 2]>;
 
+/// The intervals of `plan` for so many seeds, and those of them that contain the probability.
+fn covered(space: &Space, probability: f64, seeds: u64, plan: impl Fn(u64) -> Plan) -> anyhow::Result<[u64; 2]> {
+    let is_covered = |seed: u64| {
+        let found = Sampler::exact().estimate(space, plan(seed))?;
+        anyhow::Ok(u64::from(found.interval.is_some_and(|interval| interval.contains(probability))))
+    };
+    Ok([seeds, (1..=seeds).map(is_covered).sum::<anyhow::Result<u64>>()?])
+}
+
 /// The intervals over the spaces of one method, number of coordinates and range of probabilities.
 fn tried(method: Method, free: usize, band: usize, extent: &Extent) -> anyhow::Result<Cells> {
     let (name, range) = BANDS[band];
@@ -225,12 +231,8 @@ fn tried(method: Method, free: usize, band: usize, extent: &Extent) -> anyhow::R
     for index in 0..extent.spaces {
         let (space, probability) = space_with(&mut rng, method, free, range, extent.truth)?;
         for points in extent.points {
-            let seeds = 1..=extent.seeds;
-            let is_covered = |seed: u64| {
-                let found = Sampler::exact().estimate(&space, method.plan(*points, seed + 1000 * index as u64))?;
-                anyhow::Ok(u64::from(found.interval.is_some_and(|interval| interval.contains(probability))))
-            };
-            let covered: u64 = seeds.map(is_covered).sum::<anyhow::Result<u64>>()?;
+            let plan = |seed| method.plan(*points, seed + 1000 * index as u64);
+            let [tried, covered] = covered(&space, probability, extent.seeds, plan)?;
             let (by_points, by_free) = (format!("{points} launches"), format!("{free} coordinates"));
             let keys = [
                 format!("{by_points}, {by_free}, P {name}"),
@@ -241,7 +243,7 @@ fn tried(method: Method, free: usize, band: usize, extent: &Extent) -> anyhow::R
             ];
             for key in keys {
                 let [all, of_them] = cells.entry(key).or_default();
-                *all += extent.seeds;
+                *all += tried;
                 *of_them += covered;
             }
         }
@@ -264,16 +266,11 @@ fn tried_at_rare_kinks(name: &str, texts: [&str; 5], extent: &Extent) -> anyhow:
     let axes: Vec<(Coordinate, &str)> = [RateX, RateY, RateZ, Speed, Tilt].into_iter().zip(texts).collect();
     let space = Space::parse(Coin::from_moments(1.0, 0.5)?, &axes)?;
     let probability = ReferenceProbabilities::inside()?.figure(name)?;
-    let mut cells = Cells::new();
-    for points in extent.points {
-        let is_covered = |seed: u64| {
-            let found = Sampler::exact().estimate(&space, Method::ExactSpeed.plan(*points, seed))?;
-            anyhow::Ok(u64::from(found.interval.is_some_and(|interval| interval.contains(probability))))
-        };
-        let covered: u64 = (1..=extent.seeds).map(is_covered).sum::<anyhow::Result<u64>>()?;
-        cells.insert(format!("{points} launches, {name}"), [extent.seeds, covered]);
-    }
-    Ok(cells)
+    let cell = |points: &u64| {
+        let cell = covered(&space, probability, extent.seeds, |seed| Method::ExactSpeed.plan(*points, seed))?;
+        Ok((format!("{points} launches, {name}"), cell))
+    };
+    extent.points.iter().map(cell).collect()
 }
 
 /// How far the fraction is below [`LEAST`] beyond chance.

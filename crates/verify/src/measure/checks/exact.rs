@@ -6,64 +6,94 @@
 //! An ulp is the distance from an f64 to the next; the phase (rad) is the angle by which a motion turns, and ψ the cone
 //! angle between the coin's normal n and its angular momentum S.
 
-use std::f64::consts::TAU;
-
 use dynamics::Toss;
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use exact::{ExactMotion, TiltTerms, certify, compensated_cos_tilt};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use toss::{
     Attitude, Batch, CoinMotion, CoinToss, Error, Launch, Outcome, Sensitivity, SimdLevel, SolveError, TimeOfFlight,
-    Tosses, Vector3, level_speeds_of_heads, margin, speeds_of_heads,
 };
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Basis, Check, Fold, Measure, Set};
+use crate::measure::check::Basis::CrossMethod;
+use crate::measure::check::Fold::{Count, Largest, Mean};
+use crate::measure::check::Measure::Tosses;
+use crate::measure::check::{Check, Set};
 use crate::measure::context::Context;
-use crate::measure::effort::Effort;
 use crate::measure::families::{FAMILIES, Family, LONG, launches};
-use crate::measure::measurement::Deviation;
 use crate::measure::reference::Reference;
 use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
+use crate::measure::trial::Deviation;
 
-pub(super) const COS_TILT: Check = Check {
-    id: "last-bit-cos-tilt",
-    claim: "cos θ at landing from the exact motion differs from the 256-bit reference by at most the limit, about an \
-            ulp of 1, for phases up to 1e9 rad and at the corners of the model.",
-    ceiling: 1e-15,
-    measure: Measure::Tosses(|| last_bits(cos_tilt_error), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const ATTITUDE: Check = Check {
-    id: "last-bit-attitude",
-    claim: "The attitude at landing from the exact motion differs from the 256-bit reference by at most the limit, a \
-            few ulp, for phases up to 1e9 rad and at the corners of the model.",
-    ceiling: 1e-14,
-    unit: "rad",
-    measure: Measure::Tosses(|| last_bits(attitude_error), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const EULER_ANGLES: Check = Check {
-    id: "last-bit-euler-angles",
-    claim: "The attitude that the exact motion's Euler angles at landing give differs from the 256-bit reference by \
-            at most the limit, in ulp of 1 plus the largest angle.",
-    ceiling: 10.0,
-    unit: "ulp",
-    measure: Measure::Tosses(|| last_bits(euler_angles_error), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const OUTCOMES: Check = Check {
-    id: "certified-outcomes",
-    claim: "Certified outcomes are those of the 256-bit reference, also within 3 ulp of the speed at which the \
-            outcome changes. Measured: the number of tosses that differ, also by being undecided; one is enough to \
-            fail.",
-    unit: "tosses",
-    measure: Measure::Tosses(outcomes, Fold::Count),
-    ..Check::OF_LIBRARY
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("last-bit-cos-tilt", Tosses(|| last_bits(cos_tilt_error), Largest)).up_to(1e-15, "1").claims(
+        "cos θ at landing from the exact motion differs from the 256-bit reference by at most the limit, about an ulp \
+         of 1, for phases up to 1e9 rad and at the corners of the model.",
+    ),
+    Check::of_library("last-bit-attitude", Tosses(|| last_bits(attitude_error), Largest)).up_to(1e-14, "rad").claims(
+        "The attitude at landing from the exact motion differs from the 256-bit reference by at most the limit, a few \
+         ulp, for phases up to 1e9 rad and at the corners of the model.",
+    ),
+    Check::of_library("last-bit-euler-angles", Tosses(|| last_bits(euler_angles_error), Largest))
+        .up_to(10.0, "ulp")
+        .claims(
+            "The attitude that the exact motion's Euler angles at landing give differs from the 256-bit reference by \
+             at most the limit, in ulp of 1 plus the largest angle.",
+        ),
+    Check::of_library("certified-outcomes", Tosses(outcomes, Count)).up_to(0.0, "tosses").claims(
+        "Certified outcomes are those of the 256-bit reference, also within 3 ulp of the speed at which the outcome \
+         changes. Measured: the number of tosses that differ, also by being undecided; one is enough to fail.",
+    ),
+    Check::of_library("certified-bounds", Tosses(bounds, Largest)).up_to(1.0, "1").claims(
+        "The error of cos θ in the proof stages f64 and double-double is within the error bound by which the stage \
+         proves an outcome. Measured: the largest error divided by that error bound; it fails above the limit of this \
+         check.",
+    ),
+    Check::of_library("batch-cos-tilt", Tosses(|| of_batches(batched_cos_tilt_error), Largest))
+        .up_to(1e-14, "1")
+        .claims(
+            "cos θ at landing from a batch differs from the 256-bit reference by at most the limit, for phases up to \
+             1e9 rad, near changes of the outcome and at the corners of the model.",
+        ),
+    Check::of_library("batch-attitude", Tosses(|| of_batches(batched_attitude_error), Largest))
+        .up_to(1e-14, "rad")
+        .claims(
+            "The attitude at landing from a batch differs from the 256-bit reference by at most the limit, for phases \
+             up to 1e9 rad, near changes of the outcome and at the corners of the model.",
+        ),
+    Check::of_library("batch-outcomes", Tosses(outcomes_of_batches, Count)).up_to(0.0, "tosses").claims(
+        "The outcomes of a batch are those of the 256-bit reference, also within 3 ulp of the speed at which the \
+         outcome changes. Measured: the number of tosses that differ; one is enough to fail.",
+    ),
+    Check::of_library("batch-paths", Tosses(simd_levels, Count)).up_to(0.0, "tosses").by(CrossMethod).claims(
+        "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. Measured: \
+         the number of tosses with a difference; one is enough to fail.",
+    ),
+    Check::of_library("mean-cos-tilt-error", Tosses(mean_errors, Mean)).up_to(1e-15, "1").claims(
+        "The mean of |error| of cos θ at landing by the exact motion, by compensated phases and by a batch, against \
+         the 256-bit reference, is at most the limit, for phases up to 100 rad.",
+    ),
+    Check::of_library("cos-tilt-terms", Tosses(terms, Largest)).up_to(1e-18, "1").claims(
+        "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
+         without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
+    ),
+    Check::of_library("rigid-cos-tilt", Tosses(rigid_cos_tilts, Largest)).up_to(1e-15, "1").claims(
+        "cos θ at landing of any rigid body differs from the 256-bit reference by at most the limit, for phases \
+             from 1 to 1e9 rad.",
+    ),
+    Check::of_library("rigid-attitude", Tosses(rigid_attitudes, Largest)).up_to(1e-14, "rad").claims(
+        "The attitude at landing of any rigid body differs from the 256-bit reference by at most the limit, for \
+             phases from 1 to 1e9 rad.",
+    ),
+    Check::of_library("rigid-outcomes", Tosses(at_edges, Count)).up_to(0.0, "tosses").claims(
+        "The proven outcomes of any rigid body are those of the 256-bit reference within 3 ulp of a time at which the \
+         outcome changes. Measured: the number of tosses that differ or are undecided; one is enough to fail.",
+    ),
+    Check::of_library("sensitivity", Tosses(derivatives, Largest)).up_to(1e-10, "1").claims(
+        "The derivatives of attitude and cos θ at landing by relative changes of ω and of the time of flight differ \
+         from central differences in 256 bits by at most the limit, relative to the norm of the attitude's derivative.",
+    ),
+];
 
 fn outcomes() -> Vec<Set> {
     let differs = |toss: &CoinToss, reference: &Reference| {
@@ -74,16 +104,6 @@ fn outcomes() -> Vec<Set> {
         Set::of_tries("adversarial", |tries| adversarial(tries, few_turns), differs),
     ]
 }
-
-pub(super) const BOUNDS: Check = Check {
-    id: "certified-bounds",
-    claim: "The error of cos θ in the proof stages f64 and double-double is within the error bound by which the stage \
-            proves an outcome. Measured: the largest error divided by that error bound; it fails above the limit of \
-            this check.",
-    ceiling: 1.0,
-    measure: Measure::Tosses(bounds, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
 
 fn bounds() -> Vec<Set> {
     let tosses = |tries: u64| {
@@ -147,40 +167,6 @@ fn part_of_double_double_bound(toss: &CoinToss, reference: &Reference) -> Deviat
     Ok(reference.unrounded_cos_tilt_error(*ball.midpoint()) / ball.radius())
 }
 
-pub(super) const BATCH_COS_TILT: Check = Check {
-    id: "batch-cos-tilt",
-    claim: "cos θ at landing from a batch differs from the 256-bit reference by at most the limit, for phases up to \
-            1e9 rad, near changes of the outcome and at the corners of the model.",
-    ceiling: 1e-14,
-    measure: Measure::Tosses(
-        || of_batches(|toss, reference| Ok(reference.cos_tilt_error(batched(toss, cos_tilt)?))),
-        Fold::Largest,
-    ),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const BATCH_ATTITUDE: Check = Check {
-    id: "batch-attitude",
-    claim: "The attitude at landing from a batch differs from the 256-bit reference by at most the limit, for phases \
-            up to 1e9 rad, near changes of the outcome and at the corners of the model.",
-    ceiling: 1e-14,
-    unit: "rad",
-    measure: Measure::Tosses(
-        || of_batches(|toss, reference| Ok(reference.attitude_error(&batched(toss, attitude)?))),
-        Fold::Largest,
-    ),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const BATCH_OUTCOMES: Check = Check {
-    id: "batch-outcomes",
-    claim: "The outcomes of a batch are those of the 256-bit reference, also within 3 ulp of the speed at which the \
-            outcome changes. Measured: the number of tosses that differ; one is enough to fail.",
-    unit: "tosses",
-    measure: Measure::Tosses(outcomes_of_batches, Fold::Count),
-    ..Check::OF_LIBRARY
-};
-
 fn outcomes_of_batches() -> Vec<Set> {
     let differs =
         |toss: &CoinToss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
@@ -191,21 +177,19 @@ fn outcomes_of_batches() -> Vec<Set> {
     ]
 }
 
-pub(super) const SIMD_LEVELS: Check = Check {
-    id: "batch-paths",
-    claim: "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. \
-            Measured: the number of tosses with a difference; one is enough to fail.",
-    basis: Basis::CrossMethod,
-    unit: "tosses",
-    measure: Measure::Tosses(simd_levels, Fold::Count),
-    ..Check::OF_LIBRARY
-};
-
 fn simd_levels() -> Vec<Set> {
     vec![
         Set::of_tries("random", |tries| level(random(2 * tries, 6e4, 15)?), levels_that_differ),
         Set::of_tries("adversarial", |tries| level(adversarial(tries, few_turns)?), levels_that_differ),
     ]
+}
+
+fn batched_cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    Ok(reference.cos_tilt_error(batched(toss, cos_tilt)?))
+}
+
+fn batched_attitude_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    Ok(reference.attitude_error(&batched(toss, attitude)?))
 }
 
 fn of_batches(error: OfCoin) -> Vec<Set> {
@@ -254,7 +238,8 @@ fn batched<T>(toss: &CoinToss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) 
     };
     let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
     let attitude = toss.launch.attitude();
-    let tosses = Tosses::new(toss.coin, attitude, gravity, rates, std::slice::from_ref(&speed)).expect("a valid toss");
+    let tosses =
+        toss::Tosses::new(toss.coin, attitude, gravity, rates, std::slice::from_ref(&speed)).expect("a valid toss");
     kernel(&Batch::new(tosses)).map_err(|error| match error {
         Error::Launch { source, .. } => source,
         other => unreachable!("a valid toss: {other}"),
@@ -278,24 +263,6 @@ fn outcome(batch: &Batch<'_>) -> Result<Outcome, Error> {
     batch.outcomes(&mut out)?;
     Ok(out[0])
 }
-
-pub(super) const MEAN_COS_TILT: Check = Check {
-    id: "mean-cos-tilt-error",
-    claim: "The mean of |error| of cos θ at landing by the exact motion, by compensated phases and by a batch, against \
-            the 256-bit reference, is at most the limit, for phases up to 100 rad.",
-    ceiling: 1e-15,
-    measure: Measure::Tosses(mean_errors, Fold::Mean),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const TERMS: Check = Check {
-    id: "cos-tilt-terms",
-    claim: "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
-            without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
-    ceiling: 1e-18,
-    measure: Measure::Tosses(terms, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
 
 fn terms() -> Vec<Set> {
     vec![
@@ -336,40 +303,9 @@ fn mean_errors() -> Vec<Set> {
         .collect()
 }
 
-pub(super) const RIGID_COS_TILT: Check = Check {
-    id: "rigid-cos-tilt",
-    claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the limit, for phases \
-            from 1 to 1e9 rad.",
-    ceiling: 1e-15,
-    measure: Measure::Tosses(rigid_cos_tilts, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const RIGID_ATTITUDE: Check = Check {
-    id: "rigid-attitude",
-    claim: "The attitude at landing of any rigid body differs from the 256-bit reference by at most the limit, for \
-            phases from 1 to 1e9 rad.",
-    unit: "rad",
-    ceiling: 1e-14,
-    measure: Measure::Tosses(rigid_attitudes, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const RIGID_OUTCOMES: Check = Check {
-    id: "rigid-outcomes",
-    claim: "The proven outcomes of any rigid body are those of the 256-bit reference within 3 ulp of a time at which \
-            the outcome changes. Measured: the number of tosses that differ or are undecided; one is enough to fail.",
-    unit: "tosses",
-    measure: Measure::Tosses(at_edges, Fold::Count),
-    ..Check::OF_LIBRARY
-};
-
-/// A set of long flights for each family of bodies, with references that all checks of them take.
+/// A set of long flights for each family of bodies.
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let set = |(index, family): (usize, &Family)| {
-        Set::of_cases(family.name, move |context| Ok(context.long_bodies.get(context)?[index].clone()), deviation)
-    };
-    FAMILIES.iter().enumerate().map(set).collect()
+    Set::of_families(&FAMILIES, |family, context| launches(family, tries(context.effort) / 20, LONG), deviation)
 }
 
 /// Errors of cos θ.
@@ -387,16 +323,13 @@ fn rigid_attitudes() -> Vec<Set> {
 }
 
 fn at_edges() -> Vec<Set> {
-    let set = |family: &'static Family| {
-        let tosses = move |context: &Context| {
-            Ok(launches(family, tries(context.effort) / 20, LONG).filter_map(|toss| at_an_edge(&toss)).collect())
-        };
-        // A toss without a proof is undecided.
-        Set::new(family.name, tosses, |toss, reference| {
-            Ok(f64::from(!certify(toss).is_ok_and(|found| found.outcome() == reference.outcome())))
-        })
+    let tosses = |family: &'static Family, context: &Context| {
+        launches(family, tries(context.effort) / 20, LONG).iter().filter_map(at_an_edge).collect()
     };
-    FAMILIES.iter().map(set).collect()
+    // A toss without a proof is undecided.
+    Set::of_families(&FAMILIES, tosses, |toss, reference| {
+        Ok(f64::from(!certify(toss).is_ok_and(|found| found.outcome() == reference.outcome())))
+    })
 }
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
@@ -429,16 +362,6 @@ pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> O
     }
     Some(after)
 }
-
-pub(super) const DERIVATIVES: Check = Check {
-    id: "sensitivity",
-    claim: "The derivatives of attitude and cos θ at landing by relative changes of ω and of the time of flight \
-            differ from central differences in 256 bits by at most the limit, relative to the norm of the attitude's \
-            derivative.",
-    ceiling: 1e-10,
-    measure: Measure::Tosses(derivatives, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
 
 fn derivatives() -> Vec<Set> {
     const LAUNCHES: usize = 500;
@@ -481,179 +404,4 @@ fn differences(toss: &CoinToss) -> (Matrix3x4<f64>, Vector4<f64>) {
         cos_tilt[input] = from.cos_tilt_to(&to) / change;
     }
     (attitude, cos_tilt)
-}
-
-pub(super) const MARGINS: Check = Check {
-    id: "margins",
-    claim: "Where a margin says that the outcome changes with one input, the 256-bit reference changes, to a relative \
-            1e-9. None of twelve tosses on each side in between, nor of those for an input without a margin, has another \
-            outcome: that is a sample, and a flip between two of them would not be seen. Measured: the number of inputs of \
-            a toss with a wrong margin; one is enough to fail.",
-    unit: "inputs",
-    measure: Measure::Tosses(|| searched(61, wrong_margins), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const SPEEDS: Check = Check {
-    id: "speeds-of-heads",
-    claim: "The outcome in 256 bits changes at both ends of each interval of speeds that land heads, to a relative \
-            1e-9, and is heads within and tails between them, also for a landing at another height. Measured: the \
-            number of speeds of a toss with another outcome; one is enough to fail.",
-    unit: "speeds",
-    measure: Measure::Tosses(|| searched(62, wrong_speeds), Fold::Largest),
-    ..Check::OF_LIBRARY
-};
-
-/// Relative distance from a flip at which the outcome is asked for.
-const CLOSE: f64 = 1e-9;
-
-/// Largest number of tosses that are looked at between the launch and a flip, in each direction.
-const MOST_LOOKS: u32 = 12;
-
-/// Number of turns over which speeds of heads are compared.
-const MOST_TURNS: f64 = 20.0;
-
-/// Flips of the outcome are searched for in 256 bits, in many tosses one by one: the library walks along the motion in proven
-/// steps.
-fn searched(seed: u64, wrong: OfCoin) -> Vec<Set> {
-    let tosses = move |context: &Context| {
-        let number = match context.effort {
-            Effort::Quick => 15,
-            Effort::Standard => 150,
-            Effort::Deep => 3000,
-        };
-        Ok(random(number, 1e2, seed)?.into_iter().map(Toss::from).collect())
-    };
-    vec![Set::of_coins("random", tosses, wrong)]
-}
-
-/// The value of an input.
-type Value = fn(&CoinToss) -> f64;
-
-/// A toss with `change` added to one of its inputs; `None` if there is no such toss.
-type Changed = fn(&CoinToss, f64) -> Option<CoinToss>;
-
-/// The inputs whose margins are compared: speed, gravity, tilt, ωx, ωy, ωz.
-const INPUTS: [(Value, Changed); 6] = [
-    (|toss| thrown(toss)[0], |toss, change| toss_thrown(toss, [change, 0.0])),
-    (|toss| thrown(toss)[1], |toss, change| toss_thrown(toss, [0.0, change])),
-    (tilt, |toss, change| Some(CoinToss { launch: toss.launch.with_tilt(tilt(toss) + change).ok()?, ..*toss })),
-    (|toss| toss.launch.rate().x, |toss, change| toss_with_rate(toss, Vector3::new(change, 0.0, 0.0))),
-    (|toss| toss.launch.rate().y, |toss, change| toss_with_rate(toss, Vector3::new(0.0, change, 0.0))),
-    (|toss| toss.launch.rate().z, |toss, change| toss_with_rate(toss, Vector3::new(0.0, 0.0, change))),
-];
-
-/// Speed and gravity.
-fn thrown(toss: &CoinToss) -> [f64; 2] {
-    match toss.launch.time_of_flight() {
-        TimeOfFlight::Ballistic { speed, gravity } | TimeOfFlight::BallisticTo { speed, gravity, .. } => {
-            [speed, gravity]
-        }
-        TimeOfFlight::Given(_) => [f64::NAN; 2],
-    }
-}
-
-/// The angle of the turn about the laboratory's x axis (rad).
-fn tilt(toss: &CoinToss) -> f64 {
-    let [w, x, ..] = toss.launch.attitude().components();
-    2.0 * x.atan2(w)
-}
-
-fn relaunched(toss: &CoinToss, rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Option<CoinToss> {
-    let launch = Launch::new(rate, time_of_flight).ok()?;
-    Some(CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
-}
-
-fn toss_with_rate(toss: &CoinToss, change: Vector3<f64>) -> Option<CoinToss> {
-    relaunched(toss, toss.launch.rate() + change, toss.launch.time_of_flight())
-}
-
-fn toss_thrown(toss: &CoinToss, [by_speed, by_gravity]: [f64; 2]) -> Option<CoinToss> {
-    let [speed, gravity] = thrown(toss);
-    let (speed, gravity) = (speed + by_speed, gravity + by_gravity);
-    let time_of_flight = match toss.launch.time_of_flight() {
-        TimeOfFlight::BallisticTo { drop, .. } => TimeOfFlight::BallisticTo { speed, gravity, drop },
-        _ => TimeOfFlight::Ballistic { speed, gravity },
-    };
-    relaunched(toss, toss.launch.rate(), time_of_flight)
-}
-
-/// The number of inputs whose margin is wrong.
-fn wrong_margins(toss: &CoinToss, reference: &Reference) -> Deviation {
-    let (found, outcome) = (margin(&(*toss).into())?, reference.outcome());
-    let [rate_x, rate_y, rate_z] = found.rate;
-    let margins = [found.speed, found.gravity, found.tilt, rate_x, rate_y, rate_z];
-    // Beyond these changes no flip was searched for, or all values are tried.
-    let [speed, gravity] = thrown(toss);
-    let turn = TAU / toss.launch.flight_time().max(1e-3);
-    let near = found.rate_range.map(|range| range.min(4.0 * turn));
-    let ranges = [speed, 0.99 * gravity, 1.5, near[0], near[1], near[2]];
-    let wrong = INPUTS.iter().zip(margins).zip(ranges).filter(|(((value, changed), margin), range)| {
-        let outcome_after = |change: f64| changed(toss, change).map(|toss| Reference::new(&toss).outcome());
-        !is_right(value(toss), *margin, *range, outcome, MOST_LOOKS, outcome_after)
-    });
-    Ok(wrong.count() as f64)
-}
-
-/// Whether no toss that is looked at up to a margin, and the one beyond it, has another outcome than `outcome`.
-pub(super) fn is_right(
-    value: f64,
-    margin: Option<f64>,
-    range: f64,
-    outcome: Outcome,
-    number: u32,
-    outcome_after: impl Fn(f64) -> Option<Outcome>,
-) -> bool {
-    let stays = |change: f64| outcome_after(change).is_none_or(|after| after == outcome);
-    let Some(margin) = margin else { return looks(range, number).all(|change| stays(change) && stays(-change)) };
-    // The change is rounded when it is added to the value.
-    let close = CLOSE.max(4.0 * f64::EPSILON * value.abs() / margin.abs());
-    let beyond = outcome_after(margin * (1.0 + close));
-    beyond.is_some_and(|beyond| beyond != outcome)
-        && stays(margin * (1.0 - close))
-        && looks(margin.abs() * (1.0 - close), number).all(|change| stays(change) && stays(-change))
-}
-
-/// So many changes from 0 up to `range`, evenly spread.
-fn looks(range: f64, number: u32) -> impl Iterator<Item = f64> {
-    (1..=number).map(move |look| range * f64::from(look) / f64::from(number))
-}
-
-/// The number of speeds, at the ends of the intervals of heads and in between, whose outcome is another one: for a
-/// landing at the height of the launch, below and above it.
-fn wrong_speeds(toss: &CoinToss, _: &Reference) -> Deviation {
-    let [speed, gravity] = thrown(toss);
-    // Of a toss of many turns only the last ones, because each has an interval.
-    let turns = CoinMotion::new(toss).phase(toss.launch.flight_time())? / TAU;
-    let slowest = speed * (1.0 - MOST_TURNS / turns).max(0.4);
-    let mut wrong = 0;
-    for drop in [None, Some(0.3), Some(-0.01 * speed * speed / gravity)] {
-        let time_of_flight = drop.map_or(TimeOfFlight::Ballistic { speed, gravity }, |drop| {
-            TimeOfFlight::BallisticTo { speed, gravity, drop }
-        });
-        let Some(toss) = relaunched(toss, toss.launch.rate(), time_of_flight) else { continue };
-        let heads = speeds_of_heads(&toss.into(), slowest)?.unwrap_or_default();
-        if drop.is_none() {
-            // Both functions answer the same question here.
-            let level = level_speeds_of_heads(&toss, slowest)?.map(Iterator::collect::<Vec<_>>);
-            wrong += usize::from(level.as_ref() != Some(&heads));
-        }
-        wrong += wrong_among(&toss, [slowest, speed], &heads)?;
-    }
-    Ok(wrong as f64)
-}
-
-fn wrong_among(toss: &CoinToss, [slowest, fastest]: [f64; 2], heads: &[[f64; 2]]) -> Result<usize, SolveError> {
-    let ends = heads.iter().flatten().flat_map(|end| [end * (1.0 - CLOSE), end * (1.0 + CLOSE)]);
-    let between = looks(1.0, MOST_LOOKS).map(|part| slowest + part * (fastest - slowest));
-    // Next to an end of the range an interval may touch it within rounding.
-    let inside = |speed: &f64| *speed > slowest * (1.0 + CLOSE) && *speed < fastest * (1.0 - CLOSE);
-    let away = |speed: &f64| heads.iter().flatten().all(|end| (speed / end - 1.0).abs() > 0.5 * CLOSE);
-    let speeds: Vec<f64> = ends.chain(between).filter(inside).filter(away).collect();
-    let is_wrong = |speed: &&f64| {
-        let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(*speed));
-        let there = toss_thrown(toss, [**speed - thrown(toss)[0], 0.0]);
-        there.is_some_and(|there| (Reference::new(&there).outcome() == Outcome::Heads) != expected)
-    };
-    Ok(speeds.iter().filter(is_wrong).count())
 }

@@ -2,43 +2,83 @@
 //! direction, plates and rods, turns about an axis, quaternions of any norm, numbers in units. They ask of these the same
 //! as other checks ask of random launches: accuracy, proofs, no silence, margins. The judge is the reference alone.
 
-use std::sync::Arc;
-
 use dynamics::Toss;
 use exact::{ExactMotion, certify};
 use rayon::prelude::*;
-use toss::{
-    Launch, Outcome, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Vector3, margin,
-};
+use toss::{Outcome, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight};
 
-use super::exact::{edge_near, is_right};
-use super::landings::part_of_estimate;
+use super::exact::edge_near;
+use super::landings::{part_of_allowed, part_of_estimate};
 use super::proofs::share;
-use crate::measure::adversary::{self, Findings};
-use crate::measure::cases::{Case, hard_number};
-use crate::measure::check::{Allowed, Basis, Check, Fold, Landed, Measure, Set};
+use crate::measure::adversary::{self, Answers};
+use crate::measure::check::Basis::CrossMethod;
+use crate::measure::check::Fold::{Count, Largest, Mean};
+use crate::measure::check::Measure::{Own, Tosses};
+use crate::measure::check::{Allowed, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
-use crate::measure::families::{FAMILIES, Family, HARD, HardFamily, TOSSED, hard_toss, hard_tosses, launches};
+use crate::measure::families::{
+    FAMILIES, Family, HARD, TOSSED, hard_number, hard_toss, hard_tosses, hard_tosses_of, launches,
+};
 use crate::measure::hostile;
-use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
+use crate::measure::run::Answer;
 use crate::measure::subject::{Subject, by_scheme, taylor};
 use crate::measure::tosses::random;
+use crate::measure::trial::{Deviation, Measurement, Trial};
 
 /// What the checks of the library on these bodies have in common.
-const OF_FAMILIES: Check = Check { ceiling: 0.0, unit: "tosses", ..Check::OF_LIBRARY };
-
-pub(super) const CLOSED_FORMS: Check = Check {
-    id: "reference-closed-forms",
-    claim: "Where the reference answers in closed form, its ground truth, an integration of the equations of motion by \
-            Taylor series, lands at the same attitude: on coins, and on a sample of each family of bodies, for phases of \
-            1 to 100 rad. Measured: the largest angle between the two; it fails above the limit.",
-    basis: Basis::CrossMethod,
-    ceiling: 1e-30,
-    unit: "rad",
-    measure: Measure::Tosses(closed_forms, Fold::Largest),
-    ..Check::OF_LIBRARY
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("reference-closed-forms", Tosses(closed_forms, Largest))
+        .up_to(1e-30, "rad")
+        .by(CrossMethod)
+        .claims(
+            "Where the reference answers in closed form, its ground truth, an integration of the equations of motion \
+             by Taylor series, lands at the same attitude: on coins, and on a sample of each family of bodies, for \
+             phases of 1 to 100 rad. Measured: the largest angle between the two; it fails above the limit.",
+        ),
+    Check::of_library("hard-cos-tilt", Tosses(cos_tilts, Largest)).up_to(1e-15, "1").claims(
+        "cos θ at landing from the exact motion differs from the reference by at most the limit, for bodies of eight \
+         families without a simple case and phases of 1 to 30 rad.",
+    ),
+    Check::of_library("hard-attitude", Tosses(attitudes, Largest)).up_to(1e-14, "rad").claims(
+        "The attitude at landing from the exact motion differs from the reference by at most the limit, for bodies of \
+         eight families without a simple case and phases of 1 to 30 rad.",
+    ),
+    Check::of_library("hard-outcomes", Tosses(outcomes, Count)).up_to(0.0, "tosses").claims(
+        "The proven outcomes of bodies of eight families without a simple case are those of the reference, also within \
+         3 ulp of a time at which the outcome changes. Measured: the number of tosses that differ or are undecided; \
+         one is enough to fail.",
+    ),
+    Check::of_library("hard-integrated-outcomes", Tosses(integrated_outcomes, Count)).up_to(0.0, "tosses").claims(
+        "Outcomes that an integration proves, of bodies of eight families without a simple case, are those of the \
+         reference, also within 3 ulp of a time at which the outcome changes. Measured: the number of tosses with \
+         another outcome, not counting those that stay undecided; one is enough to fail.",
+    ),
+    Check::of_library("hard-integrated-undecided", Tosses(undecided, Mean)).up_to(0.5, "1").claims(
+        "An integration proves the outcome of nearly all bodies of eight families without a simple case that don't \
+         land next to a change of it. Measured: the share of tosses that stay undecided.",
+    ),
+    Check::of_library("hard-integrated-bounds", Tosses(integrated_bounds, Largest)).up_to(1.0, "1").claims(
+        "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, for bodies of \
+         eight families without a simple case, where there is a bound. Measured: the largest error divided by its \
+         bound; it fails above 1.",
+    ),
+    Check::of_solvers("hard-within-estimate", WITHIN_ESTIMATES).up_to(1.0, "1").claims(
+        "On bodies of eight families without a simple case, with phases of 1 to 30 rad and flights of up to 50 s, the \
+         errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest \
+         error divided by that; it fails above the limit, or at 1 without one. Where a solver states no estimate, it \
+         decides nothing and is not judged.",
+    ),
+    Check::of_solvers("hard-silence", Own(silently_wrong)).up_to(0.0, "launches").claims(
+        "On bodies of eight families without a simple case, each at one of five tolerances or of two steps, no answer \
+         is wrong without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
+    ),
+    Check::of_solvers("hard-long-flights", Own(long_flights)).up_to(1.0, "1").claims(
+        "On flights of 100 rad at tolerances down to 2.3e-16, of bodies of eight families without a simple case, the \
+         errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns an \
+         error. Measured: the largest error divided by that; it fails above the limit, or at 1 without one.",
+    ),
+];
 
 fn closed_forms() -> Vec<Set> {
     let angle = |toss: &Toss, _: &Reference| match Reference::in_closed_form(toss) {
@@ -46,108 +86,67 @@ fn closed_forms() -> Vec<Set> {
         None => Ok(0.0),
     };
     let number = |context: &Context| hard_number(context.effort) / 4;
-    let of_family = |family: &'static Family| {
-        let tosses = move |context: &Context| Ok(launches(family, number(context), TOSSED).collect());
-        Set::new(family.name, tosses, angle)
-    };
     let coins = move |context: &Context| {
-        let adversarial = (0..4 * number(context)).map(|index| adversary::launch(8, index));
+        let adversarial = (0..4 * number(context) as usize).map(|index| adversary::launch(8, index));
         let random = random(number(context), 100.0, 81)?.into_iter().map(Toss::from);
         Ok(random.chain(adversarial).filter(|toss| Reference::flown(toss).is_ok()).collect())
     };
-    FAMILIES.iter().map(of_family).chain([Set::new("coins", coins, angle)]).collect()
+    let bodies = |family: &'static Family, context: &Context| launches(family, hard_number(context.effort) / 4, TOSSED);
+    Set::of_families(&FAMILIES, bodies, angle).into_iter().chain([Set::new("coins", coins, angle)]).collect()
 }
 
-pub(super) const COS_TILT: Check = Check {
-    id: "hard-cos-tilt",
-    claim: "cos θ at landing from the exact motion differs from the reference by at most the limit, for bodies of eight \
-            families without a simple case and phases of 1 to 30 rad.",
-    ceiling: 1e-15,
-    unit: "1",
-    measure: Measure::Tosses(
-        || {
-            on_cases(|toss, reference| {
-                Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..OF_FAMILIES
-};
-
-pub(super) const ATTITUDE: Check = Check {
-    id: "hard-attitude",
-    claim: "The attitude at landing from the exact motion differs from the reference by at most the limit, for bodies of \
-            eight families without a simple case and phases of 1 to 30 rad.",
-    ceiling: 1e-14,
-    unit: "rad",
-    measure: Measure::Tosses(attitudes, Fold::Largest),
-    ..OF_FAMILIES
-};
-
 fn attitudes() -> Vec<Set> {
-    on_cases(|toss, reference| {
+    of_families(|toss, reference| {
         Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
     })
 }
 
-/// A set of each family, with the references that all checks of it share.
-fn on_cases(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let set = |(index, family): (usize, &HardFamily)| {
-        Set::of_cases(family.name, move |context| Ok(context.hard_bodies.get(context)?[index].clone()), deviation)
-    };
-    HARD.iter().enumerate().map(set).collect()
+/// A set of each family.
+fn of_families(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
+    Set::of_families(&HARD, |family, context| hard_tosses_of(family, hard_number(context.effort)), deviation)
 }
 
 /// The same, and for each family the same tosses within 3 ulp of a change of the outcome.
 fn with_edges(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
-    let at_edges = |(index, family): (usize, &HardFamily)| {
-        let cases = move |context: &Context| Ok(context.hard_edges.get(context)?[index].clone());
-        Set::of_cases(format!("{}, at an edge", family.name), cases, deviation)
+    let at_edges = |(index, family): (usize, &Family)| {
+        let tosses = move |context: &Context| Ok(context.hard_edges.get(context)?[index].clone());
+        Set::new(format!("{}, at an edge", family.name), tosses, deviation)
     };
-    on_cases(deviation).into_iter().chain(HARD.iter().enumerate().map(at_edges)).collect()
+    of_families(deviation).into_iter().chain(HARD.iter().enumerate().map(at_edges)).collect()
 }
 
-pub(super) const OUTCOMES: Check = Check {
-    id: "hard-outcomes",
-    claim: "The proven outcomes of bodies of eight families without a simple case are those of the reference, also within \
-            3 ulp of a time at which the outcome changes. Measured: the number of tosses that differ or are undecided; one \
-            is enough to fail.",
-    measure: Measure::Tosses(
-        || with_edges(|toss, reference| Ok(f64::from(certify(toss)?.outcome() != reference.outcome()))),
-        Fold::Count,
-    ),
-    ..OF_FAMILIES
-};
+fn cos_tilts() -> Vec<Set> {
+    of_families(|toss, reference| {
+        Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
+    })
+}
 
-pub(super) const INTEGRATED_OUTCOMES: Check = Check {
-    id: "hard-integrated-outcomes",
-    claim: "Outcomes that an integration proves, of bodies of eight families without a simple case, are those of the \
-            reference, also within 3 ulp of a time at which the outcome changes. Measured: the number of tosses with \
-            another outcome, not counting those that stay undecided; one is enough to fail.",
-    measure: Measure::Tosses(
-        || {
-            with_edges(|toss, reference| {
-                let found = integrated_outcome(toss)?;
-                Ok(f64::from(found != Outcome::Undecided && found != reference.outcome()))
-            })
-        },
-        Fold::Count,
-    ),
-    ..OF_FAMILIES
-};
+fn outcomes() -> Vec<Set> {
+    with_edges(|toss, reference| Ok(f64::from(certify(toss)?.outcome() != reference.outcome())))
+}
 
-pub(super) const INTEGRATED_UNDECIDED: Check = Check {
-    id: "hard-integrated-undecided",
-    claim: "An integration proves the outcome of nearly all bodies of eight families without a simple case that don't land \
-            next to a change of it. Measured: the share of tosses that stay undecided.",
-    ceiling: 0.5,
-    unit: "1",
-    measure: Measure::Tosses(
-        || on_cases(|toss, _| Ok(f64::from(integrated_outcome(toss)? == Outcome::Undecided))),
-        Fold::Mean,
-    ),
-    ..OF_FAMILIES
+fn integrated_outcomes() -> Vec<Set> {
+    with_edges(|toss, reference| {
+        let found = integrated_outcome(toss)?;
+        Ok(f64::from(found != Outcome::Undecided && found != reference.outcome()))
+    })
+}
+
+fn undecided() -> Vec<Set> {
+    of_families(|toss, _| Ok(f64::from(integrated_outcome(toss)? == Outcome::Undecided)))
+}
+
+fn integrated_bounds() -> Vec<Set> {
+    of_families(|toss, reference| {
+        let solver = taylor(Stepping::DEFAULT_TOLERANCE)?;
+        Ok(solver.enclose(toss).map_or(0.0, |found| share(&found, reference)))
+    })
+}
+
+const WITHIN_ESTIMATES: Measure = Measure::Landings {
+    of: |context| context.hard.get(context),
+    deviation: part_of_allowed,
+    allowed: Allowed::UpTo(1.0),
 };
 
 /// The outcome that an integration at the default tolerance proves; undecided where it has no bound.
@@ -156,103 +155,36 @@ fn integrated_outcome(toss: &Toss) -> Result<Outcome, SolveError> {
     Ok(solver.certify(toss).map_or(Outcome::Undecided, |found| found.outcome()))
 }
 
-pub(super) const INTEGRATED_BOUNDS: Check = Check {
-    id: "hard-integrated-bounds",
-    claim: "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, for bodies of eight \
-            families without a simple case, where there is a bound. Measured: the largest error divided by its bound; it \
-            fails above 1.",
-    ceiling: 1.0,
-    unit: "1",
-    measure: Measure::Tosses(
-        || {
-            on_cases(|toss, reference| {
-                let solver: QuaternionSolver = taylor(Stepping::DEFAULT_TOLERANCE)?;
-                Ok(solver.enclose(toss).map_or(0.0, |found| share(&found, reference)))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..OF_FAMILIES
-};
-
-pub(super) const WITHIN_ESTIMATE: Check = Check {
-    id: "hard-within-estimate",
-    claim: "On bodies of eight families without a simple case, with phases of 1 to 30 rad and flights of up to 50 s, the \
-            errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest error divided by that; it fails \
-            above the limit, or at 1 without one. Where a solver states no estimate, it decides nothing and is not judged.",
-    ceiling: 1.0,
-    measure: Measure::Landings {
-        of: |context| context.hard.get(context),
-        deviation: part_of_estimate,
-        allowed: Allowed::UpTo(1.0),
-    },
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const SILENTLY_WRONG: Check = Check {
-    id: "hard-silence",
-    claim: "On bodies of eight families without a simple case, each at one of five tolerances or of two steps, no answer is \
-            wrong without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
-    unit: "launches",
-    measure: Measure::Own(silently_wrong),
-    ..Check::OF_SOLVERS
-};
-
 fn silently_wrong(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let cases = context.hard_bodies.get(context)?.iter().flatten();
-    let (judged, unjudged): (Vec<&Case>, Vec<&Case>) = cases.partition(|case| case.reference.is_some());
-    let case = |index: u64| {
-        let case = judged[usize::try_from(index).unwrap_or(0)];
-        Ok((case.toss, case.reference.clone().unwrap_or(Arc::new(Reference::of(&case.toss)?))))
-    };
-    let row = |Findings { subject, launches, refused, silently_wrong, unclaimed, first_wrong, .. }| {
-        let (measured, worst) = (silently_wrong as f64, first_wrong);
-        let found = Measurement { measured, cases: launches, worst, ..Measurement::of(&subject) };
+    let tosses = hard_tosses(context.effort).into_iter().flatten();
+    let (judged, unjudged): (Vec<Toss>, Vec<Toss>) = tosses.partition(|toss| context.exact.of(toss).is_some());
+    let row = |answers: Answers| {
+        let found = answers.number_of(Answer::SilentlyWrong);
         // Next to the separatrix a rough tolerance gives no estimate.
-        let claims = refused + unclaimed < launches;
+        let unclaimed = [Answer::TypedError, Answer::Unclaimed].map(|answer| answers.number_of(answer).measured);
+        let claims = unclaimed.iter().sum::<f64>() < found.cases as f64;
         found.claiming(claims.then_some(0.0)).beside_unjudged(unjudged.len())
     };
-    let found = adversary::search_among(&context.registry, judged.len() as u64, case)?;
-    Ok(found.into_iter().map(row).collect())
+    Ok(adversary::search_among(context, &judged)?.into_iter().map(row).collect())
 }
-
-pub(super) const LONG_FLIGHTS: Check = Check {
-    id: "hard-long-flights",
-    claim: "On flights of 100 rad at tolerances down to 2.3e-16, of bodies of eight families without a simple case, the \
-            errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns an \
-            error. Measured: the largest error divided by that; it fails above the limit, or at 1 without one.",
-    ceiling: 1.0,
-    measure: Measure::Own(long_flights),
-    ..Check::OF_SOLVERS
-};
 
 fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PHASE: f64 = 100.0;
     let number = hard_number(context.effort) / 12;
     let tosses = |family| (0..number).filter_map(move |index| hard_toss(family, index, Some(PHASE)));
     let tosses: Vec<Toss> = HARD.iter().flat_map(tosses).collect();
-    let references: Vec<Option<Reference>> = tosses.par_iter().map(|toss| Reference::of(toss).ok()).collect();
-    let unjudged = references.iter().filter(|reference| reference.is_none()).count();
+    let unjudged = tosses.par_iter().filter(|toss| context.exact.of(toss).is_none()).count();
     let row = |(entry, scheme): (&SolverEntry, Scheme)| {
-        let part = |(index, (toss, exact)): (usize, (&Toss, &Option<Reference>))| {
-            let by = hostile::of_toss(entry, scheme, toss, index as u64).ok()?;
-            let found = by.solver.land(toss).ok().zip(exact.as_ref());
-            let part = found.map(|(landing, exact)| {
-                part_of_estimate(&Landed { toss, family: "", exact, landing: &landing }).unwrap_or(0.0)
-            });
-            part.map(|part| (part, Worst::by(toss, &by, None)))
-        };
-        let parts = tosses.par_iter().zip(&references).enumerate().filter_map(part);
-        let parts: Vec<(f64, Worst)> = parts.collect();
+        let by = |(index, toss): (u64, &Toss)| Some((*toss, hostile::of_toss(entry, scheme, toss, index).ok()?));
+        let flights: Vec<(Toss, Subject)> = (0..).zip(&tosses).filter_map(by).collect();
+        let trials = flights.par_iter().filter_map(|(toss, by)| {
+            let (landing, exact) = (by.solver.land(toss).ok()?, context.exact.of(toss)?);
+            let part = part_of_estimate(&exact, &landing).unwrap_or(0.0);
+            Some(Trial::by(by, toss, Ok((part, Some(1.0)))))
+        });
+        let trials: Vec<Trial<'_>> = trials.collect();
         let name = Subject::new(entry, Some(hostile::finest(scheme)?), toss::Formulation::default()).name;
-        let cases = parts.len() as u64;
-        let (measured, worst) = parts.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unzip();
-        let measured = measured.unwrap_or(f64::INFINITY);
-        anyhow::Ok(
-            Measurement { measured, cases, worst, ..Measurement::of(&name) }
-                .claiming(Some(1.0))
-                .beside_unjudged(unjudged),
-        )
+        anyhow::Ok(Fold::Largest.of(&name, &trials).beside_unjudged(unjudged))
     };
     let each = context.registry.iter().flat_map(by_scheme).filter_map(|(entry, scheme)| Some((entry, scheme?)));
     // A solver for coins flies few of these bodies.
@@ -266,67 +198,11 @@ fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     each.filter(flies_bodies).map(row).collect()
 }
 
-pub(super) const MARGINS: Check = Check {
-    id: "hard-margins",
-    claim: "Where a margin of a body says that the outcome changes with one input, the reference changes there, to a \
-            relative 1e-9. No toss that was looked at in between has another outcome, nor has any that was looked at for an \
-            input without a margin: that is a sample, and a flip between two looks would not be seen. Measured: the number \
-            of inputs of a toss with a wrong margin; one is enough to fail.",
-    unit: "inputs",
-    measure: Measure::Tosses(margins, Fold::Largest),
-    ..OF_FAMILIES
-};
-
-fn margins() -> Vec<Set> {
-    let set = |family: &'static HardFamily| {
-        let tosses = move |context: &Context| Ok(hard_tosses(family, hard_number(context.effort) / 12));
-        Set::new(family.name, tosses, wrong_margins)
-    };
-    HARD.iter().map(set).collect()
-}
-
-/// The number of inputs whose margin is wrong: time, ωx, ωy and ωz, in the units that the toss was given in.
-fn wrong_margins(toss: &Toss, reference: &Reference) -> Deviation {
-    const LOOKS: u32 = 3;
-    let (found, outcome) = (margin(toss)?, reference.outcome());
-    let (time, turn) = (toss.launch.flight_time(), 3.0 / toss.launch.flight_time());
-    // The rounding of a rate in another unit would move the toss.
-    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time));
-    let launch = launch.map_err(|error| SolveError::failed("the check", error))?;
-    let si = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
-    let after = |change: &dyn Fn(&Launch) -> Option<Launch>| {
-        let launch = change(&si.launch)?.with_attitude(toss.launch.attitude());
-        Some(Reference::of(&Toss { launch, ..si }).ok()?.outcome())
-    };
-    let later = |change: f64| {
-        let time = TimeOfFlight::Given(time + change);
-        after(&|launch| launch.with_time_of_flight(time).ok())
-    };
-    let mut wrong = usize::from(!is_right(
-        time,
-        found.time,
-        found.time_range.map_or(time, |[earlier, _]| earlier.min(time)),
-        outcome,
-        LOOKS,
-        later,
-    ));
-    for axis in 0..3 {
-        let faster = |change: f64| {
-            let rate = toss.launch.rate() + Vector3::ith(axis, change);
-            after(&|launch| Launch::new(rate, launch.time_of_flight()).ok())
-        };
-        let (value, range) = (toss.launch.rate()[axis], found.rate_range[axis].min(turn));
-        wrong += usize::from(!is_right(value, found.rate[axis], range, outcome, LOOKS, faster));
-    }
-    Ok(wrong as f64)
-}
-
 /// A toss of each family within 3 ulp of a time at which its outcome changes.
-pub(crate) fn edges(context: &Context) -> anyhow::Result<Vec<Vec<Case>>> {
+pub(crate) fn edges(context: &Context) -> anyhow::Result<Vec<Vec<Toss>>> {
     let solver = taylor(f64::EPSILON)?;
-    let edge = |case: &Case| Some(Case::solved(edge_of_body(&solver, &case.toss)?));
-    let all = context.hard_bodies.get(context)?;
-    Ok(all.iter().map(|cases| cases.par_iter().filter_map(edge).collect()).collect())
+    let edges = |tosses: Vec<Toss>| tosses.par_iter().filter_map(|toss| edge_of_body(&solver, toss)).collect();
+    Ok(hard_tosses(context.effort).into_iter().map(edges).collect())
 }
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes: found by an integration in f64, and moved

@@ -6,60 +6,66 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use anyhow::Context as _;
 use rayon::prelude::*;
 use toss::{
-    Attitude, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping,
-    Toss,
+    Attitude, CoinMotion, CoinToss, Formulation, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping, Toss,
 };
 
 use super::landings::part_of_estimate;
-use crate::measure::adversary::Findings;
+use crate::measure::adversary::Answers;
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::case::{self, is_horizontal};
-use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
+use crate::measure::check::Basis::{CrossMethod, Invariant};
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
+use crate::measure::check::ceiling::COS_TILT;
 use crate::measure::context::Context;
-use crate::measure::effort::Effort;
-use crate::measure::families::FAMILIES;
 use crate::measure::hostile::{self, Flight};
 use crate::measure::long_flights::Drift;
-use crate::measure::measurement::{Deviation, Measurement, Worst};
-use crate::measure::reference::Reference;
 use crate::measure::run::Answer;
 use crate::measure::subject::Subject;
+use crate::measure::trial::{Fold, Measurement, Trial, Worst};
 
-pub(super) const ANSWERS: Check = Check {
-    id: "atlas-answers",
-    claim: "Near every place where some method fails, each solver, scheme and formulation does what \
-            atlas.toml records: it is right, returns an error, or is wrong as it is known to be. Measured: \
-            the number of places where it does anything else; one is enough to fail.",
-    unit: "hazards",
-    measure: Measure::Own(answers),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const TILT_WORK: Check = Check {
-    id: "work-by-tilt",
-    claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
-            tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the limit.",
-    basis: Basis::Invariant,
-    ceiling: 1.0,
-    measure: Measure::Own(tilt_work),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const RETURN_WORK: Check = Check {
-    id: "work-through-returns",
-    claim: "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default \
-            no more calls of the right-hand side, unless it is short, than the same flight in the vertical formulation, \
-            tilted so that the normal stays away from the vertical. Measured: the largest ratio of calls; it fails above \
-            the limit.",
-    basis: Basis::CrossMethod,
-    ceiling: 3.0,
-    measure: Measure::Own(return_work),
-    ..Check::OF_SOLVERS
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_solvers("atlas-answers", Own(answers)).up_to(0.0, "hazards").claims(
+        "Near every place where some method fails, each solver, scheme and formulation does what atlas.toml records: \
+         it is right, returns an error, or is wrong as it is known to be. Measured: the number of places where it does \
+         anything else; one is enough to fail.",
+    ),
+    Check::of_solvers("work-by-tilt", Own(tilt_work)).up_to(1.0, "1").by(Invariant).claims(
+        "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
+         tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the limit.",
+    ),
+    Check::of_solvers("work-through-returns", Own(return_work)).up_to(3.0, "1").by(CrossMethod).claims(
+        "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default no \
+         more calls of the right-hand side, unless it is short, than the same flight in the vertical formulation, \
+         tilted so that the normal stays away from the vertical. Measured: the largest ratio of calls; it fails above \
+         the limit.",
+    ),
+    Check::of_solvers("adversarial-silence", Own(silently_wrong)).up_to(0.0, "launches").claims(
+        "On launches chosen to break solvers, each at one of five tolerances or of two steps, no answer is wrong \
+         without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
+    ),
+    Check::of_solvers("adversarial-refusals", Own(refused)).up_to(LARGEST_REFUSAL, "1").claims(
+        "Of the launches chosen to break solvers, the fraction that a solver refuses with an error is at most the \
+         limit, or a quarter without one.",
+    ),
+    Check::of_solvers("long-flight-error", Own(long_errors)).up_to(1.0, "1").claims(
+        "On flights of up to 10⁴ s the error of the attitude is within the solver's error estimate, or the solver \
+         returns an error. Measured: the largest error divided by what the estimate allows; it fails above the limit.",
+    ),
+    Check::of_solvers("long-flight-drift", Own(long_drifts)).up_to(COS_TILT, "1").by(Invariant).claims(
+        "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value at \
+         launch by at most the limit, relative to |S|.",
+    ),
+    Check::of_solvers("hostile-within-estimate", Own(hostile_flights)).up_to(1.0, "1").claims(
+        "On flights of up to 1e6 rad at tolerances down to 2.3e-16, of coins and bodies whose rounding errors add up, \
+         the errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns \
+         an error. Measured: the largest error divided by that; it fails above the limit, or at 1 without one. Where a \
+         solver states no estimate, it decides nothing and is not judged.",
+    ),
+];
 
 fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let atlas = context.atlas.get(context)?;
@@ -118,12 +124,13 @@ fn return_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let stepping = Stepping::adaptive(scheme, Stepping::DEFAULT_TOLERANCE)?;
         let [cured, far] = [Formulation::MOMENTUM, Formulation::VERTICAL]
             .map(|formulation| Subject::new(entry, Some(stepping), formulation));
-        let ratio = |toss: &Toss| -> Option<(Toss, Deviation)> {
+        let ratio = |toss: &Toss| {
             let seen = far_from_the_vertical(&toss.coin()?)?.into();
-            Some((*toss, calls(&*cured.solver, toss).and_then(|here| Ok(here / calls(&*far.solver, &seen)?))))
+            let ratio = calls(&*cured.solver, toss).and_then(|here| Ok((here / calls(&*far.solver, &seen)?, None)));
+            Some(Trial::by(&cured, toss, ratio))
         };
-        let (flown, ratios): (Vec<Toss>, Vec<Deviation>) = horizontal.par_iter().filter_map(ratio).unzip();
-        Ok(Measurement::largest(&cured, &ratios, |index| flown[index], |_| Ok(None)).without_claim())
+        let ratios: Vec<Trial<'_>> = horizontal.par_iter().filter_map(ratio).collect();
+        Ok(Fold::Largest.of(&cured.name, &ratios).without_claim())
     };
     let angles = context.registry.iter().filter(with_angles);
     angles.filter_map(|entry| Some((entry, adaptive(entry)?))).map(row).collect()
@@ -149,69 +156,35 @@ fn far_from_the_vertical(toss: &CoinToss) -> Option<CoinToss> {
     Some(CoinToss { launch, ..*toss })
 }
 
-pub(super) const SILENTLY_WRONG: Check = Check {
-    id: "adversarial-silence",
-    claim: "On launches chosen to break solvers, each at one of five tolerances or of two steps, no answer is wrong \
-            without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
-    unit: "launches",
-    measure: Measure::Own(|context| {
-        searched(context, |findings| {
-            let claim = (findings.unclaimed == 0).then_some(0.0);
-            (findings.silently_wrong as f64, findings.first_wrong.clone(), claim)
-        })
-    }),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const REFUSED: Check = Check {
-    id: "adversarial-refusals",
-    claim: "Of the launches chosen to break solvers, the fraction that a solver refuses with an error is at most the \
-            limit, or a quarter without one.",
-    ceiling: 0.25,
-    measure: Measure::Own(|context| {
-        searched(context, |findings| {
-            // A refusal is what this row counts, so it is not reported as a failure of the measurement.
-            let worst = findings.first_refused.clone().map(|worst| Worst { failure: None, ..worst });
-            (findings.refused as f64 / findings.launches as f64, worst, Some(REFUSED.ceiling))
-        })
-    }),
-    ..Check::OF_SOLVERS
-};
-
-/// What was measured, its worst case, and what is allowed without a limit.
-type Counted = (f64, Option<Worst>, Option<f64>);
-
-fn searched(context: &Context, found: fn(&Findings) -> Counted) -> anyhow::Result<Vec<Measurement>> {
-    let row = |findings: &Findings| {
-        let (subject, cases, (measured, worst, allowed)) =
-            (findings.subject.clone(), findings.launches, found(findings));
-        Measurement { measured, cases, worst, ..Measurement::of(&subject) }.claiming(allowed)
+fn silently_wrong(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let row = |answers: &Answers| {
+        let is_claimed = answers.number_of(Answer::Unclaimed).measured == 0.0;
+        answers.number_of(Answer::SilentlyWrong).claiming(is_claimed.then_some(0.0))
     };
     Ok(context.search.get(context)?.iter().map(row).collect())
 }
 
-pub(super) const LONG_ERROR: Check = Check {
-    id: "long-flight-error",
-    claim: "On flights of up to 10⁴ s the error of the attitude is within the solver's error estimate, or the solver \
-            returns an error. Measured: the largest error divided by what the estimate allows; it fails above the \
-            limit.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| {
-        let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
-        over_long_flights(context, part, |drift| drift.allowed.map(|_| 1.0))
-    }),
-    ..Check::OF_SOLVERS
-};
+/// The largest fraction of launches that a solver without a limit may refuse.
+const LARGEST_REFUSAL: f64 = 0.25;
 
-pub(super) const LONG_DRIFT: Check = Check {
-    id: "long-flight-drift",
-    claim: "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value \
-            at launch by at most the limit, relative to |S|.",
-    basis: Basis::Invariant,
-    ceiling: ceiling::COS_TILT,
-    measure: Measure::Own(|context| over_long_flights(context, |drift| drift.momentum_vector, |drift| drift.allowed)),
-    ..Check::OF_SOLVERS
-};
+fn refused(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let row = |answers: &Answers| {
+        // A refusal is what this row counts, so it is not reported as a failure of the measurement.
+        let refused = answers.number_of(Answer::TypedError).with_worst(|worst| Worst { failure: None, ..worst });
+        let measured = refused.measured / refused.cases as f64;
+        Measurement { measured, ..refused }.claiming(Some(LARGEST_REFUSAL))
+    };
+    Ok(context.search.get(context)?.iter().map(row).collect())
+}
+
+fn long_errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
+    over_long_flights(context, part, |drift| drift.allowed.map(|_| 1.0))
+}
+
+fn long_drifts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    over_long_flights(context, |drift| drift.momentum_vector, |drift| drift.allowed)
+}
 
 /// The largest `part` of each subject over the flights that it solved, with what its error estimate allows for that
 /// part.
@@ -235,72 +208,35 @@ fn over_long_flights(
     Ok(flights.subjects().map(row).collect())
 }
 
-pub(super) const HOSTILE: Check = Check {
-    id: "hostile-within-estimate",
-    claim: "On flights of up to 1e6 rad at tolerances down to 2.3e-16, of coins and bodies whose rounding errors add up, the \
-            errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns an \
-            error. Measured: the largest error divided by that; it fails above the limit, or at 1 without one. Where a \
-            solver states no estimate, it decides nothing and is not judged.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| {
-        let integrators = context.registry.iter().filter(|entry| entry.integrates());
-        let each: Vec<(&SolverEntry, Scheme)> =
-            integrators.flat_map(|entry| entry.schemes().iter().map(move |scheme| (entry, *scheme))).collect();
-        each.into_par_iter().map(|(entry, scheme)| on_hostile_flights(context.effort, entry, scheme)).collect()
-    }),
-    ..Check::OF_SOLVERS
-};
+fn hostile_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let integrators = context.registry.iter().filter(|entry| entry.integrates());
+    let each: Vec<(&SolverEntry, Scheme)> =
+        integrators.flat_map(|entry| entry.schemes().iter().map(move |scheme| (entry, *scheme))).collect();
+    each.into_par_iter().map(|(entry, scheme)| on_hostile_flights(context, entry, scheme)).collect()
+}
 
-fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> anyhow::Result<Measurement> {
-    let ([coins, bodies], most_steps) = hostile::numbers(effort);
-    let families = FAMILIES.len() as u64;
-    let coin = |index: u64| hostile::of_coin(entry, scheme, index, most_steps).map(Some);
-    let body = |index: u64| hostile::of_body(entry, scheme, [index % families, index / families], most_steps);
-    let flown = (0..coins).into_par_iter().map(coin).chain((0..bodies * families).into_par_iter().map(body));
-    let land = |flight: Result<Option<Flight>, InputError>| {
-        Ok(flight?.and_then(|flight| match land(&flight) {
-            // A solver for coins flies no bodies.
-            Err(SolveError::NotSymmetric { .. }) => None,
-            part => Some((flight, part)),
-        }))
-    };
-    let landings: Vec<_> = flown.map(land).collect::<Result<_, InputError>>()?;
-    let landings: Vec<(Flight, Result<Judged, SolveError>)> = landings.into_iter().flatten().collect();
-    let name = hostile::of_coin(entry, scheme, 0, most_steps)?.by.name;
-    let number = |is: fn(&Result<Judged, SolveError>) -> bool| landings.iter().filter(|(_, part)| is(part)).count();
-    let refused = number(Result::is_err);
-    let silent = number(|part| matches!(part, Ok(Judged::Silent)));
-    let unjudged = number(|part| matches!(part, Ok(Judged::WithoutReference)));
-    let judged = landings.iter().filter_map(|(flight, part)| match part {
-        Ok(Judged::Part(part)) => Some((flight, *part)),
-        _ => None,
+fn on_hostile_flights(context: &Context, entry: &SolverEntry, scheme: Scheme) -> anyhow::Result<Measurement> {
+    let flights = hostile::flights(entry, scheme, context.effort)?;
+    let landings: Vec<_> = flights.par_iter().map(|Flight { toss, by }| by.solver.land(toss)).collect();
+    let errors = landings.iter().filter_map(|landing| landing.as_ref().err());
+    // A solver for coins flies no bodies.
+    let refused = errors.filter(|error| !matches!(error, SolveError::NotSymmetric { .. })).count();
+    let landed = flights.iter().zip(&landings).filter_map(|(flight, landing)| Some((flight, landing.as_ref().ok()?)));
+    let (stated, silent): (Vec<_>, Vec<_>) = landed.partition(|(_, landing)| landing.error.is_some());
+    let trials = stated.par_iter().filter_map(|(Flight { toss, by }, landing)| {
+        let part = part_of_estimate(&*context.exact.of(toss)?, landing)?;
+        Some(Trial::by(by, toss, Ok((part, Some(1.0)))))
     });
-    let over = judged.clone().filter(|(_, part)| *part > 1.0).count();
-    let (Flight { toss, by }, measured) =
-        judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
-    let settings = case::settings(by);
-    let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", settings.trim_start());
-    let worst = Some(Worst::by(toss, by, None).remarking(&remark));
-    let cases = (landings.len() - unjudged) as u64;
-    Ok(Measurement { measured, cases, worst, ..Measurement::of(&name) }.claiming(Some(1.0)).beside_unjudged(unjudged))
-}
-
-/// How a flight is judged.
-enum Judged {
-    /// By its error, divided by what the estimate allows.
-    Part(f64),
-    /// Not at all, without an estimate.
-    Silent,
-    /// Not at all, without a reference.
-    WithoutReference,
-}
-
-fn land(Flight { toss, by }: &Flight) -> Result<Judged, SolveError> {
-    let landing = by.solver.land(toss)?;
-    if landing.error.is_none() {
-        return Ok(Judged::Silent);
+    let mut trials: Vec<Trial<'_>> = trials.collect();
+    let over = trials.iter().filter(|trial| trial.deviation.as_ref().is_ok_and(|part| *part > 1.0)).count();
+    for trial in &mut trials {
+        let settings = trial.by.map(case::settings).unwrap_or_default();
+        let silent = silent.len();
+        trial.remark =
+            format!("{}; {over} above; {refused} refused, {silent} without an estimate", settings.trim_start());
     }
-    let Ok(exact) = Reference::of(toss) else { return Ok(Judged::WithoutReference) };
-    let part = part_of_estimate(&Landed { toss, family: "", exact: &exact, landing: &landing });
-    Ok(part.map_or(Judged::Silent, Judged::Part))
+    let unjudged = stated.len() - trials.len();
+    let name = Subject::new(entry, Some(hostile::finest(scheme)?), Formulation::default()).name;
+    let found = Fold::Largest.of(&name, &trials);
+    Ok(Measurement { cases: found.cases + (refused + silent.len()) as u64, ..found }.beside_unjudged(unjudged))
 }

@@ -9,58 +9,127 @@
 use std::f64::consts::TAU;
 
 use dynamics::Phases;
-use toss::{CoinMotion, CoinToss, Formulation, Launch, State, TimeOfFlight, Toss};
+use toss::{CoinMotion, CoinToss, Formulation, Landing, Launch, State, TimeOfFlight, Toss};
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Allowed, Basis, Check, Landed, Measure, ceiling, of_landings};
+use crate::measure::check::Basis::{CrossMethod, Invariant};
+use crate::measure::check::Measure::Own;
+use crate::measure::check::ceiling::{ATTITUDE, COS_TILT};
+use crate::measure::check::{Allowed, Check, Landed, Measure, OfLanding, of_landings};
 use crate::measure::context::Context;
 use crate::measure::drift;
-use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, tight};
-use crate::measure::survey::{Landings, Solved, Survey};
+use crate::measure::survey::{Landings, Survey};
+use crate::measure::trial::{Fold, Measurement, Trial};
 
-/// The landings of the random launches.
-const fn random(deviation: fn(&Landed<'_>) -> Option<f64>) -> Measure {
-    let allowed = Allowed::By(|allowance| allowance.attitude);
-    Measure::Landings { of: |context| context.survey.get(context), deviation, allowed }
+/// A deviation on the random launches, of which as much is allowed as of the attitude.
+const fn random(deviation: OfLanding) -> Measure {
+    random_allowing(deviation, |allowance| allowance.attitude)
 }
 
-pub(super) const COS_TILT: Check = Check {
-    id: "random-cos-tilt",
-    claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the limit.",
-    ceiling: ceiling::COS_TILT,
-    measure: Measure::Landings {
-        of: |context| context.survey.get(context),
-        deviation: |landed| Some(landed.exact.cos_tilt_error(landed.landing.cos_tilt)),
-        allowed: Allowed::By(|allowance| allowance.cos_tilt),
-    },
-    ..Check::OF_SOLVERS
-};
+const fn random_allowing(deviation: OfLanding, allowed: fn(&Allowance) -> f64) -> Measure {
+    Measure::Landings { of: |context| context.survey.get(context), deviation, allowed: Allowed::By(allowed) }
+}
 
-pub(super) const ATTITUDE: Check = Check {
-    id: "random-attitude",
-    claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the limit.",
-    ceiling: ceiling::ATTITUDE,
-    unit: "rad",
-    measure: random(attitude_error),
-    ..COS_TILT
-};
+/// A deviation on the bodies.
+const fn of_bodies(deviation: OfLanding, allowed: Allowed) -> Measure {
+    Measure::Landings { of: |context| context.bodies.get(context), deviation, allowed }
+}
+
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_solvers("random-cos-tilt", random_allowing(cos_tilt_error, |allowance| allowance.cos_tilt))
+        .up_to(COS_TILT, "1")
+        .claims("On random launches, cos θ at landing differs from the 256-bit reference by at most the limit."),
+    Check::of_solvers("random-attitude", random(attitude_error))
+        .up_to(ATTITUDE, "rad")
+        .claims("On random launches, the attitude at landing differs from the 256-bit reference by at most the limit."),
+    Check::of_solvers("cross-method-attitude", Own(cross_method)).up_to(2.0 * ATTITUDE, "rad").by(CrossMethod).claims(
+        "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
+         and any other, differ by at most the limit.",
+    ),
+    Check::of_solvers("claims-measured", Own(claims)).up_to(LARGEST_RATIO, "1").claims(
+        "A solver claims no errors that are far larger than its own. Measured: on random launches, the median of its \
+         error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, or \
+         by four roundings of the phase if they are larger; horizontal and tilted launches apart. It fails above the \
+         limit, or at a thousand without one.",
+    ),
+    Check::of_solvers("vertical-frame-to-first-return", Own(first_return)).up_to(ATTITUDE, "rad").claims(
+        "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return there, \
+         the attitude differs from the 256-bit reference by at most the limit.",
+    ),
+    Check::of_solvers("invariant-momentum", random(|landed| drifted(landed, drift::momentum)))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
+             limit, relative to |S|.",
+        ),
+    Check::of_solvers("invariant-energy", random(|landed| drifted(landed, drift::energy)))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "(b) The kinetic energy differs at landing from its value at launch by at most the limit, relative to that \
+             value.",
+        ),
+    Check::of_solvers("invariant-normal-momentum-body", random(|landed| drifted(landed, drift::normal_momentum_body)))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
+             at landing, differs from its value at launch by at most the limit, relative to |S|.",
+        ),
+    Check::of_solvers("invariant-normal-momentum-transport", random(|landed| drifted(landed, drift::normal_momentum)))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
+             attitude at landing, differs from its value at launch by at most the limit, relative to |S|.",
+        ),
+    Check::of_solvers("invariant-momentum-vector", random(|landed| drifted(landed, drift::momentum_vector)))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
+             differs from its value at launch by at most the limit, relative to |S|.",
+        ),
+    Check::of_solvers("invariant-projection", random(off_the_attitude)).up_to(COS_TILT, "1").by(Invariant).claims(
+        "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
+         each to within the limit.",
+    ),
+    Check::of_solvers("bodies-within-estimate", of_bodies(part_of_allowed, Allowed::UpTo(1.0))).up_to(1.0, "1").claims(
+        "On bodies of seven families, next to the separatrix and the middle axis too, with phases of 1 to 30 rad, the \
+         errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest \
+         error divided by that; it fails above the limit, or at 1 without one. Where a solver states no estimate, it \
+         decides nothing and is not judged.",
+    ),
+    Check::of_solvers("bodies-stated", Own(stated)).up_to(0.5, "1").claims(
+        "A solver that lands a body states an estimate of its error. Measured: the share of tosses without one, which \
+         no other check judges; of the families of `bodies-within-estimate`.",
+    ),
+    Check::of_solvers("bodies-attitude", of_bodies(steady_attitude_error, Allowed::NotJudged))
+        .up_to(ATTITUDE, "rad")
+        .claims(
+            "On bodies of five families, away from the separatrix and the middle axis, with phases of 1 to 30 rad, the \
+             attitude at landing differs from the 256-bit reference by at most the limit.",
+        ),
+    Check::of_solvers("bodies-conserved", of_bodies(drift_of_body, Allowed::NotJudged))
+        .up_to(ATTITUDE, "1")
+        .by(Invariant)
+        .claims(
+            "The angular momentum S of any body, its length and the kinetic energy differ at landing from their values \
+             at launch by at most the limit, relative to those of a body that turns as fast about its largest axis.",
+        ),
+];
+
+fn cos_tilt_error(landed: &Landed<'_>) -> Option<f64> {
+    Some(landed.exact.cos_tilt_error(landed.landing.cos_tilt))
+}
 
 fn attitude_error(landed: &Landed<'_>) -> Option<f64> {
     Some(landed.exact.attitude_error(&landed.landing.state.attitude))
 }
-
-pub(super) const CROSS_METHOD: Check = Check {
-    id: "cross-method-attitude",
-    claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
-            and any other, differ by at most the limit.",
-    basis: Basis::CrossMethod,
-    ceiling: 2.0 * ceiling::ATTITUDE,
-    unit: "rad",
-    measure: Measure::Own(cross_method),
-    ..Check::OF_SOLVERS
-};
 
 fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.survey.get(context)?;
@@ -77,35 +146,25 @@ fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(measurements)
 }
 
-fn pair(
-    survey: &Survey,
-    (one, of_one): (&Subject, &Landings),
-    (other, of_other): (&Subject, &Landings),
-) -> Measurement {
-    let difference = |(a, b): (&Solved, &Solved)| match (a, b) {
-        (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
-        (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+fn pair(survey: &Survey, one: (&Subject, &Landings), other: (&Subject, &Landings)) -> Measurement {
+    let allowed = |subject: &Subject, toss: &Toss, landing: &Landing| {
+        Some(Allowance::new(subject, toss, landing.error)?.attitude)
     };
-    let deviations: Vec<Deviation> = of_one.iter().zip(of_other).map(difference).collect();
-    // The two errors may add up, so the difference may be as large as the sum of both allowances.
-    let allowed = |index: usize| {
-        let both = (survey.allowance(one, of_one, index)?, survey.allowance(other, of_other, index)?);
-        Ok(both.0.zip(both.1).map(|(one, other)| one.attitude + other.attitude))
+    let trial = |index: usize| {
+        let toss = &survey.tosses[index];
+        let found = match (&one.1[index], &other.1[index]) {
+            (Ok(a), Ok(b)) => {
+                // The two errors may add up, so the difference may be as large as the sum of both allowances.
+                let both = allowed(one.0, toss, a).zip(allowed(other.0, toss, b));
+                Ok((a.state.attitude.angle_to(&b.state.attitude), both.map(|(one, other)| one + other)))
+            }
+            (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+        };
+        Trial::by(other.0, toss, found)
     };
-    let found = Measurement::largest(other, &deviations, |index| survey.tosses[index], allowed);
-    Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..found }
+    let trials: Vec<Trial<'_>> = (0..survey.tosses.len()).map(trial).collect();
+    Fold::Largest.of(&format!("{} ~ {}", one.0.entry.name(), other.0.name), &trials)
 }
-
-pub(super) const CLAIMS: Check = Check {
-    id: "claims-measured",
-    claim: "A solver claims no errors that are far larger than its own. Measured: on random launches, the median of its \
-            error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, \
-            or by four roundings of the phase if they are larger; horizontal and tilted launches apart. It fails above \
-            the limit, or at a thousand without one.",
-    ceiling: LARGEST_RATIO,
-    measure: Measure::Own(claims),
-    ..Check::OF_SOLVERS
-};
 
 /// The largest ratio that is no fault. Error estimates hold for every launch, also those near the places where a method
 /// fails, so that those of honest solvers are a few hundred times too large for most launches.
@@ -171,16 +230,6 @@ fn median(numbers: &mut [f64]) -> f64 {
     numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-pub(super) const FIRST_RETURN: Check = Check {
-    id: "vertical-frame-to-first-return",
-    claim: "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return \
-            there, the attitude differs from the 256-bit reference by at most the limit.",
-    ceiling: ceiling::ATTITUDE,
-    unit: "rad",
-    measure: Measure::Own(first_return),
-    ..COS_TILT
-};
-
 /// Horizontal launches as the paper solves them: Euler angles and the γ-ODE in the vertical frame, in which both systems are
 /// singular at launch, sin β = 0, and must leave it with the right attitude.
 fn first_return(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -190,7 +239,7 @@ fn first_return(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             subjects.push(Subject::new(entry, Some(tight(*scheme)?), Formulation::VERTICAL));
         }
     }
-    let survey = Survey::of(&subjects, returning_flights(context)?, Vec::new())?;
+    let survey = Survey::of(&subjects, returning_flights(context)?, Vec::new(), &context.exact);
     let allowed = Allowed::By(|allowance| allowance.attitude);
     let each = subjects.iter().zip(&survey.landings);
     Ok(each.filter_map(|by| of_landings(&survey, by, attitude_error, allowed)).collect())
@@ -217,139 +266,47 @@ fn returning_flights(context: &Context) -> anyhow::Result<Vec<Toss>> {
     Ok(tosses)
 }
 
-pub(super) const MOMENTUM: Check = Check {
-    id: "invariant-momentum",
-    claim: "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
-            limit, relative to |S|.",
-    basis: Basis::Invariant,
-    ceiling: ceiling::ATTITUDE,
-    measure: random(|landed| drifted(landed, drift::momentum)),
-    ..COS_TILT
-};
-
-pub(super) const ENERGY: Check = Check {
-    id: "invariant-energy",
-    claim: "(b) The kinetic energy differs at landing from its value at launch by at most the limit, relative to that \
-            value.",
-    measure: random(|landed| drifted(landed, drift::energy)),
-    ..MOMENTUM
-};
-
-pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
-    id: "invariant-normal-momentum-body",
-    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
-            at landing, differs from its value at launch by at most the limit, relative to |S|.",
-    measure: random(|landed| drifted(landed, drift::normal_momentum_body)),
-    ..MOMENTUM
-};
-
-pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
-    id: "invariant-normal-momentum-transport",
-    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
-            attitude at landing, differs from its value at launch by at most the limit, relative to |S|.",
-    measure: random(|landed| drifted(landed, drift::normal_momentum)),
-    ..MOMENTUM
-};
-
-pub(super) const MOMENTUM_VECTOR: Check = Check {
-    id: "invariant-momentum-vector",
-    claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
-            differs from its value at launch by at most the limit, relative to |S|.",
-    measure: random(|landed| drifted(landed, drift::momentum_vector)),
-    ..MOMENTUM
-};
-
-pub(super) const PROJECTION: Check = Check {
-    id: "invariant-projection",
-    claim: "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
-            each to within the limit.",
-    ceiling: ceiling::COS_TILT,
-    measure: random(|Landed { landing, .. }| {
-        let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
-        Some((norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs()))
-    }),
-    ..MOMENTUM
-};
+/// How far the quaternion is from norm 1, or cos θ from that of the attitude.
+fn off_the_attitude(Landed { landing, .. }: &Landed<'_>) -> Option<f64> {
+    let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
+    Some((norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs()))
+}
 
 /// The drift of a coin between launch and landing.
 fn drifted(landed: &Landed<'_>, drift: fn(&Toss, &State) -> f64) -> Option<f64> {
     landed.toss.coin().map(|_| drift(landed.toss, &landed.landing.state))
 }
 
-pub(super) const BODIES_WITHIN_ESTIMATE: Check = Check {
-    id: "bodies-within-estimate",
-    claim: "On bodies of seven families, next to the separatrix and the middle axis too, with phases of 1 to 30 rad, the \
-            errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest \
-            error divided by that; it fails above the limit, or at 1 without one. Where a solver states no estimate, it \
-            decides nothing and is not judged.",
-    ceiling: 1.0,
-    measure: Measure::Landings {
-        of: |context| context.bodies.get(context),
-        deviation: part_of_estimate,
-        allowed: Allowed::UpTo(1.0),
-    },
-    ..COS_TILT
-};
+/// As [`part_of_estimate`].
+pub(super) fn part_of_allowed(landed: &Landed<'_>) -> Option<f64> {
+    part_of_estimate(landed.exact, landed.landing)
+}
 
 /// The larger one of the errors of cos θ and of the attitude, divided by what the estimate allows.
-pub(super) fn part_of_estimate(Landed { exact, landing, .. }: &Landed<'_>) -> Option<f64> {
+pub(super) fn part_of_estimate(exact: &Reference, landing: &Landing) -> Option<f64> {
     let allowed = Allowance::by_estimate(landing.error?);
     let attitude = exact.attitude_error(&landing.state.attitude);
     Some((exact.cos_tilt_error(landing.cos_tilt) / allowed.cos_tilt).max(attitude / allowed.attitude))
 }
 
-pub(super) const BODIES_STATED: Check = Check {
-    id: "bodies-stated",
-    claim: "A solver that lands a body states an estimate of its error. Measured: the share of tosses without one, \
-            which no other check judges; of the families of `bodies-within-estimate`.",
-    ceiling: 0.5,
-    measure: Measure::Own(stated),
-    ..COS_TILT
-};
-
 fn stated(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.bodies.get(context)?;
     let row = |(subject, landings): (&Subject, &Landings)| {
-        let silent: Vec<Deviation> = landings
-            .iter()
-            .map(|landing| Ok(f64::from(landing.as_ref().is_ok_and(|one| one.error.is_none()))))
-            .collect();
-        let worst = |index: usize, failure| Worst::by(&survey.tosses[index], subject, failure);
-        let found = Measurement::count(&subject.name, &silent, worst).without_claim();
-        Measurement { measured: found.measured / found.cases as f64, ..found }
+        let is_silent = |landing: &Result<Landing, _>| landing.as_ref().is_ok_and(|one| one.error.is_none());
+        let trial = |(toss, landing)| Trial::by(subject, toss, Ok((f64::from(is_silent(landing)), None)));
+        let trials: Vec<Trial<'_>> = survey.tosses.iter().zip(landings).map(trial).collect();
+        Fold::Share.of(&subject.name, &trials).without_claim()
     };
     let solve = context.subjects.iter().zip(&survey.landings).filter(|(_, landings)| !landings.is_empty());
     Ok(solve.map(row).collect())
 }
 
-pub(super) const BODIES_ATTITUDE: Check = Check {
-    id: "bodies-attitude",
-    claim: "On bodies of five families, away from the separatrix and the middle axis, with phases of 1 to 30 rad, the \
-            attitude at landing differs from the 256-bit reference by at most the limit.",
-    ceiling: ceiling::ATTITUDE,
-    unit: "rad",
-    measure: Measure::Landings {
-        of: |context| context.bodies.get(context),
-        deviation: |landed| {
-            let is_steady = !["near the middle axis", "near the separatrix"].contains(&landed.family);
-            is_steady.then(|| landed.exact.attitude_error(&landed.landing.state.attitude))
-        },
-        // What the estimate allows each of them is judged by the check above.
-        allowed: Allowed::NotJudged,
-    },
-    ..COS_TILT
-};
+/// The error of the attitude where a motion is steady. What the estimate allows is judged by `bodies-within-estimate`.
+fn steady_attitude_error(landed: &Landed<'_>) -> Option<f64> {
+    let is_steady = !["near the middle axis", "near the separatrix"].contains(&landed.family);
+    is_steady.then(|| landed.exact.attitude_error(&landed.landing.state.attitude))
+}
 
-pub(super) const BODIES_CONSERVED: Check = Check {
-    id: "bodies-conserved",
-    claim: "The angular momentum S of any body, its length and the kinetic energy differ at landing from their values at \
-            launch by at most the limit, relative to those of a body that turns as fast about its largest axis.",
-    basis: Basis::Invariant,
-    ceiling: ceiling::ATTITUDE,
-    measure: Measure::Landings {
-        of: |context| context.bodies.get(context),
-        deviation: |landed| Some(drift::of_body(landed.toss, &landed.landing.state).into_iter().fold(0.0, f64::max)),
-        allowed: Allowed::NotJudged,
-    },
-    ..COS_TILT
-};
+fn drift_of_body(landed: &Landed<'_>) -> Option<f64> {
+    Some(drift::of_body(landed.toss, &landed.landing.state).into_iter().fold(0.0, f64::max))
+}

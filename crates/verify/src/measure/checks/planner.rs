@@ -1,97 +1,81 @@
 //! The checks of the planner on random scenes (questions with an accuracy), about coins, other bodies and spaces of launches,
 //! and on scenes that are hostile to integrators. Only solving scenes shows whether its choices are right.
 
-use std::cmp::Ordering;
-
-use anyhow::Context as _;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Error, InputError, Scene, Toss, Want};
+use toss::{Scene, Want};
 
 use crate::measure::case;
-use crate::measure::check::{Check, Measure};
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
-use crate::measure::effort::Effort;
 use crate::measure::hostile;
-use crate::measure::measurement::Measurement;
-use crate::measure::planner::{Solved, Truth};
+use crate::measure::planner::{Planned, solve_hostile};
+use crate::measure::trial::Measurement;
 
-pub(super) const DELIVERS: Check = Check {
-    id: "plan-delivers",
-    claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
-            largest error divided by that accuracy; it fails above the limit.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| largest(context, Solved::error_by_accuracy)),
-    ..Check::OF_LIBRARY
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("plan-delivers", Own(|all| of_random_scenes(all, Planned::error_by_accuracy)))
+        .up_to(1.0, "1")
+        .claims(
+            "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
+             largest error divided by that accuracy; it fails above the limit.",
+        ),
+    Check::of_library("plan-expects", Own(|all| of_random_scenes(all, Planned::error_by_expected)))
+        .up_to(1.0, "1")
+        .claims(
+            "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
+             the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
+             the expected error; it fails above the limit.",
+        ),
+    Check::of_library("plan-hostile", Own(hostile_plans)).up_to(1.0, "1").claims(
+        "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates, \
+         and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the limit.",
+    ),
+];
 
-pub(super) const EXPECTS: Check = Check {
-    id: "plan-expects",
-    claim: "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
-            the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
-            the expected error; it fails above the limit.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| largest(context, Solved::error_by_expected)),
-    ..Check::OF_LIBRARY
-};
+/// What is measured of a scene; `None` if it was refused.
+type Part = fn(&Planned) -> Option<f64>;
 
-/// The largest `part` over the solved scenes of each kind.
-fn largest(context: &Context, part: fn(&Solved) -> f64) -> anyhow::Result<Vec<Measurement>> {
-    let trial = context.trial.get(context)?;
-    let row = |kind: &'static str| {
-        let of_kind = trial.outcomes.iter().filter(|outcome| outcome.kind == kind);
-        let outcomes = of_kind.clone().filter(|outcome| outcome.model.is_some());
-        let larger = |a: &&Solved, b: &&Solved| part(a).partial_cmp(&part(b)).unwrap_or(Ordering::Greater);
-        let number = outcomes.clone().count() as u64;
-        let worst = outcomes.max_by(larger);
-        let refused = of_kind.count() as u64 - number;
-        let input = worst.map_or_else(String::new, |outcome| format!("{}; {refused} refused", outcome.input));
-        Measurement::figure(kind, worst.map_or(f64::INFINITY, part), number, input)
-    };
-    Ok(trial.kinds().into_iter().map(row).collect())
+/// The largest `part` over the scenes of each kind, in the order in which the kinds first appear.
+fn of_random_scenes(context: &Context, part: Part) -> anyhow::Result<Vec<Measurement>> {
+    let scenes = context.scenes.get(context)?;
+    let mut kinds: Vec<&str> = Vec::new();
+    for scene in scenes {
+        if !kinds.contains(&scene.kind) {
+            kinds.push(scene.kind);
+        }
+    }
+    Ok(kinds.into_iter().map(|kind| of_kind(scenes, kind, part, |_| String::new())).collect())
 }
 
-pub(super) const PLANS: Check = Check {
-    id: "plan-hostile",
-    claim: "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates, \
-            and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the limit.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| {
-        let number: u64 = match context.effort {
-            Effort::Quick => 200,
-            Effort::Standard => 1000,
-            Effort::Deep => 5000,
-        };
-        let coins = (0..number).into_par_iter().map(|index| plan(index).map(Some));
-        let bodies = (0..number).into_par_iter().map(plan_body);
-        let planned: Vec<Option<Planned>> = coins.chain(bodies).collect::<anyhow::Result<_>>()?;
-        let row = |kind: &'static str| {
-            let of_kind: Vec<&Planned> = planned.iter().flatten().filter(|one| one.kind == kind).collect();
-            let answered = of_kind.iter().filter_map(|one| Some((one.error_by_accuracy?, &one.input)));
-            let (over, cases) = (answered.clone().filter(|(part, _)| *part > 1.0).count(), answered.clone().count());
-            let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0)).context("every plan was refused")?;
-            let input = format!("{}; {over} above; {} refused", worst.1, of_kind.len() - cases);
-            Ok(Measurement::figure(kind, worst.0, cases as u64, input))
-        };
-        KINDS.into_iter().chain([BODIES]).map(row).collect()
-    }),
-    ..Check::OF_LIBRARY
-};
+/// The largest `part` over the scenes of a kind, with a remark on all parts.
+fn of_kind(scenes: &[Planned], kind: &str, part: Part, remark: fn(&[f64]) -> String) -> Measurement {
+    let of_kind: Vec<&Planned> = scenes.iter().filter(|scene| scene.kind == kind).collect();
+    let answered = of_kind.iter().filter_map(|scene| Some((part(scene)?, &scene.input)));
+    let parts: Vec<f64> = answered.clone().map(|(part, _)| part).collect();
+    let (remark, refused) = (remark(&parts), of_kind.len() - parts.len());
+    let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0));
+    let (measured, input) = worst.map_or((f64::INFINITY, "every scene"), |(part, input)| (part, input));
+    Measurement::figure(kind, measured, parts.len() as u64, format!("{input}; {remark}{refused} refused"))
+}
+
+fn hostile_plans(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let number: u64 = context.effort.of([200, 1000, 5000]);
+    let coins = (0..number).into_par_iter().map(|index| plan(index).map(Some));
+    let bodies = (0..number).into_par_iter().map(plan_body);
+    let planned: Vec<Option<Planned>> = coins.chain(bodies).collect::<anyhow::Result<_>>()?;
+    let planned: Vec<Planned> = planned.into_iter().flatten().collect();
+    let above = |parts: &[f64]| format!("{} above; ", parts.iter().filter(|part| **part > 1.0).count());
+    let row = |kind| of_kind(&planned, kind, Planned::error_by_accuracy, above);
+    Ok(KINDS.into_iter().chain([BODIES]).map(row).collect())
+}
 
 /// What is planned.
 const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
 
 /// The kind of a plan of a body with I1 ≠ I2: half want cos θ, half an attitude.
 const BODIES: &str = "bodies";
-
-/// What came of a plan.
-struct Planned {
-    kind: &'static str,
-    /// `None` where the plan or the integrator was refused with an error.
-    error_by_accuracy: Option<f64>,
-    input: String,
-}
 
 /// Plan number `index`, and its answer.
 fn plan(index: u64) -> anyhow::Result<Planned> {
@@ -106,7 +90,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
     };
     let (by, scene) = asked(want, ["gamma", "euler", "quaternion"][rng.random_range(0..3)], &mut rng);
     let input = format!("{} # {kind} {by}", case::text(&toss));
-    planned(kind, &scene, &toss, input)
+    solve_hostile(kind, &scene, &toss, input)
 }
 
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
@@ -116,7 +100,7 @@ fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
     let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
     let input = format!("{} # {} {by}", case::text(&toss), scene.want.kind().name());
-    planned(BODIES, &scene, &toss, input).map(Some)
+    solve_hostile(BODIES, &scene, &toss, input).map(Some)
 }
 
 /// A scene that wants this by the solver, with any scheme and accuracy, and these in words.
@@ -125,16 +109,4 @@ fn asked(want: Want, solver: &str, rng: &mut ChaCha8Rng) -> (String, Scene) {
     let accuracy = 10f64.powf(rng.random_range(-11.0..-2.0));
     let by = format!("to {accuracy:e} by {solver} {}", scheme.unwrap_or("any"));
     (by, Scene::new(want, accuracy).by(solver, scheme))
-}
-
-/// What comes of the plan of a scene about `toss`.
-fn planned(kind: &'static str, scene: &Scene, toss: &Toss, input: String) -> anyhow::Result<Planned> {
-    let answer = match scene.plan().and_then(|decision| decision.choice.run(scene)) {
-        Ok(answer) => answer,
-        Err(Error::Solve(_) | Error::Input(InputError::OutOfRange { field: "accuracy", .. })) => {
-            return Ok(Planned { kind, error_by_accuracy: None, input });
-        }
-        Err(error) => return Err(error.into()),
-    };
-    Ok(Planned { kind, error_by_accuracy: Some(Truth::new(toss)?.error(scene, &answer)? / scene.accuracy), input })
 }

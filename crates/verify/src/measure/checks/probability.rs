@@ -19,62 +19,74 @@ use toss::{
 };
 
 use super::counting::counts;
-use crate::measure::check::{Basis, Check, Measure};
+use crate::measure::check::Basis::{CrossMethod, PublishedFigure};
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
-use crate::measure::effort::Effort;
-use crate::measure::measurement::Measurement;
 use crate::measure::planner;
 use crate::measure::subject::{Subject, usual};
 use crate::measure::tables::tables;
+use crate::measure::trial::Measurement;
 
-pub(super) const LONG_FLIGHT: Check = Check {
-    id: "long-flight-probability",
-    claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
-            most the limit, for cone angles ψ from 45° to 90°.",
-    ceiling: 1e-12,
-    measure: Measure::Own(long_flight),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const LONG_FLIGHT_SHARE: Check = Check {
-    id: "long-flight-share",
-    claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
-            the long-flight probability p(ψ) by at most the limit.",
-    ceiling: 1e-4,
-    measure: Measure::Own(long_flight_share),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const TABLES: Check = Check {
-    id: "probability-tables",
-    claim: "P(heads) by every sampling method differs from the paper's by at most the limit: 0.66 in Fig. 4, 1 for \
-            the cheated toss, 0 for the tails toss.",
-    basis: Basis::PublishedFigure,
-    ceiling: 0.005,
-    measure: Measure::Own(published),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
-    id: "fig4-grid-in-random",
-    claim: "In Fig. 4's space P(heads) by a grid (the paper's method A) lies in the Clopper-Pearson interval of \
-            random launches (its method B), which misses the probability at most once in a million. Measured: the \
-            distance from the interval; any distance fails.",
-    basis: Basis::CrossMethod,
-    measure: Measure::Own(grid_in_random),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const FIG4_SAME_COUNTS: Check = Check {
-    id: "fig4-same-counts",
-    claim: "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact \
-            motion. Measured: the sum of the two differences; one launch is enough to fail.",
-    basis: Basis::CrossMethod,
-    ceiling: 1000.0,
-    unit: "launches",
-    measure: Measure::Own(same_counts),
-    ..Check::OF_SOLVERS
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("long-flight-probability", Own(long_flight)).up_to(1e-12, "1").claims(
+        "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at most \
+         the limit, for cone angles ψ from 45° to 90°.",
+    ),
+    Check::of_library("long-flight-share", Own(long_flight_share)).up_to(1e-4, "1").claims(
+        "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from the \
+         long-flight probability p(ψ) by at most the limit.",
+    ),
+    Check::of_library("probability-tables", Own(published)).up_to(0.005, "1").by(PublishedFigure).claims(
+        "P(heads) by every sampling method differs from the paper's by at most the limit: 0.66 in Fig. 4, 1 for the \
+         cheated toss, 0 for the tails toss.",
+    ),
+    Check::of_library("fig4-grid-in-random", Own(grid_in_random)).by(CrossMethod).claims(
+        "In Fig. 4's space P(heads) by a grid (the paper's method A) lies in the Clopper-Pearson interval of random \
+         launches (its method B), which misses the probability at most once in a million. Measured: the distance from \
+         the interval; any distance fails.",
+    ),
+    Check::of_solvers("fig4-same-counts", Own(same_counts)).up_to(1000.0, "launches").by(CrossMethod).claims(
+        "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact motion. \
+         Measured: the sum of the two differences; one launch is enough to fail.",
+    ),
+    Check::of_library("exact-speed-share", Own(|context| worst_share(context, |error, _| error)))
+        .up_to(1e-9, "1")
+        .claims(
+            "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
+             most the limit.",
+        ),
+    Check::of_library("exact-speed-error-bound", Own(|context| worst_share(context, |error, bound| error / bound)))
+        .up_to(1.0, "1")
+        .claims(
+            "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
+             the method states. Measured: the largest error divided by that error bound; it fails above the limit of \
+             this check.",
+        ),
+    Check::of_library("isotropic-long-flights", Own(isotropic)).up_to(1e-6, "1").claims(
+        "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from 1/√2, \
+         and over all directions of the body rate from the reference number, by at most the limit.",
+    ),
+    Check::of_library("probability-figures", Own(figures))
+        .up_to(1e-3, "1")
+        .claims("P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the limit."),
+    Check::of_library("enclosure-figures", Own(enclosures)).up_to(1.0, "1").claims(
+        "The proven interval of P(heads) to ± 1e-9 (± 1e-5 over two coordinates) contains the reference number. \
+         Measured: its distance from the middle divided by the half-width.",
+    ),
+    Check::of_library("enclosures-overlap", Own(overlap)).up_to(1.0, "1").by(CrossMethod).claims(
+        "On random spaces, the proven intervals of P(heads) to two accuracies overlap. Measured: the distance of their \
+         middles divided by the sum of the half-widths.",
+    ),
+    Check::of_library("sampling-errors", Own(errors)).up_to(0.02, "1").claims(
+        "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
+         reference number, is at most the limit.",
+    ),
+    Check::of_library("clopper-pearson-coverage", Own(exact_coverage)).claims(
+        "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
+         reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
+    ),
+];
 
 fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
     let measure = |(space, method, found): (&str, &str, Estimate)| {
@@ -103,10 +115,8 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let space = match context.effort {
-        Effort::Quick => named_space("paper-fig4")?.with_grid_of(10_000)?,
-        Effort::Standard | Effort::Deep => named_space("paper-fig4")?,
-    };
+    let whole = named_space("paper-fig4")?;
+    let space = context.effort.of([whole.with_grid_of(10_000)?, whole, whole]);
     let exact = counts(&space, &Sampler::exact(), Plan::Grid)?;
     let one = random_tosses(&space, 1, 0..1)[0];
     let measure = |entry: &SolverEntry| {
@@ -163,42 +173,6 @@ fn worst_cone(
     let input = format!("ψ = {}°", cone.to_degrees());
     Ok(vec![Measurement::figure("exact", deviation, cases_each * flights.len() as u64, input)])
 }
-
-pub(super) const SHARES: Check = Check {
-    id: "exact-speed-share",
-    claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
-            most the limit.",
-    ceiling: 1e-9,
-    measure: Measure::Own(|context| worst_share(context, |error, _| error)),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const SHARE_BOUNDS: Check = Check {
-    id: "exact-speed-error-bound",
-    claim: "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
-            the method states. Measured: the largest error divided by that error bound; it fails above the limit of \
-            this check.",
-    ceiling: 1.0,
-    measure: Measure::Own(|context| worst_share(context, |error, bound| error / bound)),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const ISOTROPIC: Check = Check {
-    id: "isotropic-long-flights",
-    claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
-            1/√2, and over all directions of the body rate from the reference number, by at most the limit.",
-    ceiling: 1e-6,
-    measure: Measure::Own(isotropic),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const FIGURES: Check = Check {
-    id: "probability-figures",
-    claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the limit.",
-    ceiling: 1e-3,
-    measure: Measure::Own(figures),
-    ..Check::OF_LIBRARY
-};
 
 fn worst_share(context: &Context, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
@@ -285,10 +259,7 @@ fn space(coin: Coin, [x, y, z, speed]: [&str; 4]) -> Result<Space, InputError> {
 }
 
 fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let points = match context.effort {
-        Effort::Quick => 1 << 19,
-        Effort::Standard | Effort::Deep => 1 << 22,
-    };
+    let points = context.effort.of([1 << 19, 1 << 22, 1 << 22]);
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, 1)));
     all()?
         .into_iter()
@@ -301,25 +272,6 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         })
         .collect()
 }
-
-pub(super) const ENCLOSURES: Check = Check {
-    id: "enclosure-figures",
-    claim: "The proven interval of P(heads) to ± 1e-9 (± 1e-5 over two coordinates) contains the reference number. Measured: its \
-            distance from the middle divided by the half-width.",
-    ceiling: 1.0,
-    measure: Measure::Own(enclosures),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const OVERLAP: Check = Check {
-    id: "enclosures-overlap",
-    claim: "On random spaces, the proven intervals of P(heads) to two accuracies overlap. Measured: the distance of their middles \
-            divided by the sum of the half-widths.",
-    basis: Basis::CrossMethod,
-    ceiling: 1.0,
-    measure: Measure::Own(overlap),
-    ..Check::OF_LIBRARY
-};
 
 /// Middle and half-width of the proven interval.
 fn enclosed(space: &Space, accuracy: f64) -> anyhow::Result<[f64; 2]> {
@@ -357,11 +309,7 @@ fn enclosures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// The spaces are those of the planner's scenes: rates and the tilt are values or ranges, and the speed is a range.
 fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const SEED: u64 = 64;
-    let spaces = match context.effort {
-        Effort::Quick => 30,
-        Effort::Standard => 300,
-        Effort::Deep => 1500,
-    };
+    let spaces = context.effort.of([30, 300, 1500]);
     let names =
         ["one coordinate beside the speed", "two coordinates beside the speed", "three coordinates beside the speed"];
     let mut worst = names.map(|_| (0.0, String::new()));
@@ -386,23 +334,6 @@ fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(all.map(|((name, (ratio, input)), cases)| Measurement::figure(name, ratio, cases, input)).collect())
 }
 
-pub(super) const ERRORS: Check = Check {
-    id: "sampling-errors",
-    claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
-            reference number, is at most the limit.",
-    ceiling: 0.02,
-    measure: Measure::Own(errors),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const EXACT_COVERAGE: Check = Check {
-    id: "clopper-pearson-coverage",
-    claim: "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
-            reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
-    measure: Measure::Own(exact_coverage),
-    ..Check::OF_LIBRARY
-};
-
 /// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s, whose P(heads)
 /// is among the reference numbers.
 fn four_coordinates() -> Result<Space, InputError> {
@@ -414,11 +345,7 @@ fn probability(context: &Context) -> anyhow::Result<f64> {
 }
 
 fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let replicates = match context.effort {
-        Effort::Quick => 16,
-        Effort::Standard => 64,
-        Effort::Deep => 256,
-    };
+    let replicates = context.effort.of([16, 64, 256]);
     let (space, probability) = (four_coordinates()?, probability(context)?);
     let mut measurements = Vec::new();
     for estimator in ESTIMATORS {

@@ -9,59 +9,43 @@ use rayon::prelude::*;
 use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
 
 use super::exact::at_an_edge;
-use crate::measure::check::{Check, Fold, Measure, Set};
+use crate::measure::check::Fold::{Count, Largest, Median};
+use crate::measure::check::Measure::{Both, Own, Tosses};
+use crate::measure::check::{Check, Fold, Set};
 use crate::measure::context::Context;
 use crate::measure::families::{FAMILIES, FLOWN, Family, launches};
-use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
 use crate::measure::subject::taylor;
 use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
+use crate::measure::trial::{Measurement, Trial, Worst};
 
-pub(super) const BOUNDS: Check = Check {
-    id: "integrated-bounds",
-    claim: "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, at any tolerance. \
-            Measured: the largest error divided by its bound; it fails above 1.",
-    ceiling: 1.0,
-    measure: Measure::Both(&[Measure::Tosses(bounds, Fold::Largest), Measure::Own(bounds_of_bodies)]),
-    ..Check::OF_LIBRARY
-};
-
-pub(super) const OUTCOMES: Check = Check {
-    id: "integrated-outcomes",
-    claim: "Outcomes proven by integration are those of the 256-bit reference, also within 3 ulp of the speed at which \
-            the outcome changes; those of bodies with I1 ≠ I2 may be undecided there. Measured: the number of tosses that \
-            differ, those of coins also by being undecided; one is enough to fail.",
-    ceiling: 0.0,
-    unit: "tosses",
-    measure: Measure::Tosses(outcomes, Fold::Count),
-    ..BOUNDS
-};
-
-pub(super) const TIGHTNESS: Check = Check {
-    id: "integrated-tightness",
-    claim: "The bound that an integration at the default tolerance proves for the attitude is not far above its error. \
-            Measured: the median of the bound divided by the error.",
-    ceiling: 300.0,
-    measure: Measure::Tosses(
-        || {
-            let ratio = |toss: &Toss, reference: &Reference| {
-                let found = usual()?.enclose(toss)?;
-                Ok(found.attitude_error_bound() / distance(&found, reference))
-            };
-            [("phases to 1e2", 1e2, 10), ("phases to 1e3", 1e3, 10), ("phases to 1e5", 1e5, 100)]
-                .map(|(name, phase, part)| {
-                    Set::of_tries(
-                        name,
-                        move |tries| random(tries / part, phase, 36),
-                        move |toss, reference| ratio(&(*toss).into(), reference),
-                    )
-                })
-                .into()
-        },
-        Fold::Median,
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_library("integrated-bounds", Both(&[Tosses(bounds, Largest), Own(bounds_of_bodies)]))
+        .up_to(1.0, "1")
+        .claims(
+            "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, at any \
+             tolerance. Measured: the largest error divided by its bound; it fails above 1.",
+        ),
+    Check::of_library("integrated-outcomes", Tosses(outcomes, Count)).up_to(0.0, "tosses").claims(
+        "Outcomes proven by integration are those of the 256-bit reference, also within 3 ulp of the speed at which \
+         the outcome changes; those of bodies with I1 ≠ I2 may be undecided there. Measured: the number of tosses that \
+         differ, those of coins also by being undecided; one is enough to fail.",
     ),
-    ..BOUNDS
-};
+    Check::of_library("integrated-tightness", Tosses(tightness, Median)).up_to(300.0, "1").claims(
+        "The bound that an integration at the default tolerance proves for the attitude is not far above its error. \
+         Measured: the median of the bound divided by the error.",
+    ),
+];
+
+fn tightness() -> Vec<Set> {
+    let ratio = |toss: &CoinToss, reference: &Reference| {
+        let found = usual()?.enclose(&(*toss).into())?;
+        Ok(found.attitude_error_bound() / distance(&found, reference))
+    };
+    [("phases to 1e2", 1e2, 10), ("phases to 1e3", 1e3, 10), ("phases to 1e5", 1e5, 100)]
+        .map(|(name, phase, part)| Set::of_tries(name, move |tries| random(tries / part, phase, 36), ratio))
+        .into()
+}
 
 /// The longest phase (rad) of launches at the corners: a flight of 1e4 rad takes some thousand steps.
 const LONGEST: f64 = 1e4;
@@ -117,31 +101,27 @@ const TOLERANCES: [f64; 4] = [Stepping::DEFAULT_TOLERANCE, 1e-4, 1e-7, f64::EPSI
 
 fn bounds_of_bodies(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let solvers: Vec<QuaternionSolver> = TOLERANCES.into_iter().map(taylor).collect::<Result<_, SolveError>>()?;
-    Ok(FAMILIES.iter().map(|family| bounds_of_family(family, &solvers, tries(context.effort) / 20)).collect())
+    Ok(FAMILIES.iter().map(|family| bounds_of_family(context, family, &solvers)).collect())
 }
 
 /// The largest error of cos θ or of the attitude in a family, divided by its bound, by solvers in turn.
-fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) -> Measurement {
-    let tosses: Vec<Toss> = launches(family, number, FLOWN).collect();
+fn bounds_of_family(context: &Context, family: &Family, solvers: &[QuaternionSolver]) -> Measurement {
+    let tosses = launches(family, tries(context.effort) / 20, FLOWN);
     let fly = |(index, toss): (usize, &Toss)| {
         let found = solvers[index % solvers.len()].enclose(toss).ok()?;
         (found.error_bound() < 2.0).then_some((index, *toss, found))
     };
     let bounded: Vec<(usize, Toss, IntegratedCertificate)> = tosses.par_iter().enumerate().filter_map(fly).collect();
-    let judged = |flown: &(usize, Toss, IntegratedCertificate)| {
-        Reference::of(&flown.1).ok().map(|reference| (*flown, Ok(share(&flown.2, &reference))))
+    let judged = |(index, toss, found): &(usize, Toss, IntegratedCertificate)| {
+        let trial = Trial::of_library(toss, Ok(share(found, &*context.exact.of(toss)?)));
+        let tolerance = TOLERANCES[index % TOLERANCES.len()];
+        let remark = format!("of {} tosses {} have a bound; tolerance {tolerance:e}", tosses.len(), bounded.len());
+        Some(Trial { remark, ..trial })
     };
-    let number = bounded.len();
-    let (bounded, shares): (Vec<_>, Vec<Deviation>) = bounded.par_iter().filter_map(judged).unzip();
-    let remark = format!("of {} tosses {number} have a bound", tosses.len());
-    let worst = |at: usize, failure| {
-        let (index, toss, _): &(usize, Toss, IntegratedCertificate) = &bounded[at];
-        let remark = format!("{remark}; tolerance {:e}", TOLERANCES[index % TOLERANCES.len()]);
-        // The text of a toss has no tolerance, so that the whole check repeats it.
-        Worst { replay: None, ..Worst::of_library(toss, failure).remarking(&remark) }
-    };
-    let found = Measurement::without_estimate(&format!("bodies: {}", family.name), &shares, worst);
-    found.beside_unjudged(number - shares.len())
+    let trials: Vec<Trial<'_>> = bounded.par_iter().filter_map(judged).collect();
+    let found = Fold::Largest.of(&format!("bodies: {}", family.name), &trials);
+    // The text of a toss has no tolerance, so that the whole check repeats it.
+    found.with_worst(|worst| Worst { replay: None, ..worst }).beside_unjudged(bounded.len() - trials.len())
 }
 
 fn outcomes() -> Vec<Set> {
@@ -160,7 +140,7 @@ fn outcomes() -> Vec<Set> {
     };
     let of_family = |family: &'static Family| {
         let tosses = move |context: &Context| {
-            let tosses = launches(family, tries(context.effort) / 20, FLOWN);
+            let tosses = launches(family, tries(context.effort) / 20, FLOWN).into_iter();
             Ok(tosses.flat_map(|toss| [Some(toss), at_an_edge(&toss)]).flatten().collect())
         };
         Set::new(format!("bodies: {}", family.name), tosses, of_body)

@@ -12,71 +12,99 @@ use dynamics::integrate::{OdeSystem, integrate};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use nalgebra::SVector;
 use rayon::prelude::*;
-use toss::{Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solver, Stepping, TimeOfFlight, Toss};
+use toss::{
+    Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solver, Stepping, Tilt, TimeOfFlight, Toss,
+};
 
-use crate::measure::check::{Basis, Check, Measure, ceiling};
+use crate::measure::check::Basis::PublishedFigure;
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
+use crate::measure::check::ceiling::{ATTITUDE, COS_TILT};
 use crate::measure::context::Context;
-use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::outside::{Detest, FirstFlip, ReferenceBody, ReferenceFlight};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
+use crate::measure::trial::{Fold, Measurement, Trial};
 
-pub(super) const COS_TILT: Check = Check {
-    id: "reference-cos-tilt",
-    claim: "On every reference flight, cos θ at landing differs from the reference number by at most the limit.",
-    ceiling: ceiling::COS_TILT,
-    measure: Measure::Own(cos_tilt),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const ATTITUDE: Check = Check {
-    id: "reference-attitude",
-    claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
-            limit.",
-    ceiling: ceiling::ATTITUDE,
-    unit: "rad",
-    measure: Measure::Own(attitude),
-    ..Check::OF_SOLVERS
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_solvers("reference-cos-tilt", Own(cos_tilt))
+        .up_to(COS_TILT, "1")
+        .claims("On every reference flight, cos θ at landing differs from the reference number by at most the limit."),
+    Check::of_solvers("reference-attitude", Own(attitude)).up_to(ATTITUDE, "rad").claims(
+        "On every reference flight, the attitude at landing differs from the reference attitude by at most the limit.",
+    ),
+    Check::of_library("detest-b5", Own(detest)).up_to(1e-6, "1").claims(
+        "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from the \
+         reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the limit.",
+    ),
+    Check::of_library("catalogue-moments", Own(moments)).up_to(1e-14, "1").by(PublishedFigure).claims(
+        "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness by \
+         at most the limit, relative to their size; each coin of one list is in the other.",
+    ),
+    Check::of_solvers("bodies-published", Own(published)).up_to(ATTITUDE, "rad").by(PublishedFigure).claims(
+        "Published motions of bodies that are no coins, of up to 100 s: the attitudes of seven flights that were \
+         computed in 128 bits, two of them next to the separatrix and one on it, and the rates of NASA's check \
+         case 2, a tumbling brick. Measured: the largest error (rad; of rates, relative to the largest).",
+    ),
+    Check::of_solvers(
+        "cheated-heads-in-flight",
+        Own(|context| at_every_speed(context, [1.0, 1.0, 2.5], Outcome::Heads)),
+    )
+    .up_to(0.0, "launches")
+    .by(PublishedFigure)
+    .claims(
+        "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
+         number of launches that do not; one is enough to fail.",
+    ),
+    Check::of_solvers("tails-in-flight", Own(|context| at_every_speed(context, [2.0, 2.0, 0.5], Outcome::Tails)))
+        .up_to(0.0, "launches")
+        .by(PublishedFigure)
+        .claims(
+            "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
+             number of launches that do not; one is enough to fail.",
+        ),
+    Check::of_solvers("cheated-heads-forever", Own(forever)).up_to(0.0, "launches").claims(
+        "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up to 30 \
+         s by integrators. Measured: the number of launches that do not; one is enough to fail.",
+    ),
+    Check::of_solvers("first-flip", Own(first_flip)).up_to(ATTITUDE, "s").claims(
+        "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: the \
+         largest distance from the reference time; it fails above the limit.",
+    ),
+];
 
 fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
-        Ok((solver.tilt(&flight.toss)?.cos_tilt - flight.cos_tilt()).abs())
+        let tilt = solver.tilt(&flight.toss)?;
+        Ok(((tilt.cos_tilt - flight.cos_tilt()).abs(), tilt.error))
     };
     Ok(over_flights(context, error, |allowance| allowance.cos_tilt))
 }
 
 fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
-        Ok(solver.land(&flight.toss)?.state.attitude.angle_to(&flight.attitude))
+        let landing = solver.land(&flight.toss)?;
+        Ok((landing.state.attitude.angle_to(&flight.attitude), landing.error))
     };
     Ok(over_flights(context, error, |allowance| allowance.attitude))
 }
 
-/// The largest deviation of each subject over the reference flights.
+/// The largest deviation of each subject over the reference flights, of which `found` gives it with the error estimate.
 fn over_flights(
     context: &Context,
-    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError> + Sync,
+    found: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<(f64, Option<f64>), SolveError> + Sync,
     allowed: fn(&Allowance) -> f64,
 ) -> Vec<Measurement> {
-    let flights = &context.data.flights;
-    let measure = |subject: &Subject| {
-        let deviations: Vec<Deviation> =
-            flights.iter().map(|flight| deviation(subject.solver.as_ref(), flight)).collect();
-        let allowed = |index: usize| Ok(Allowance::of(subject, &flights[index].toss)?.as_ref().map(allowed));
-        Measurement::largest(subject, &deviations, |index| flights[index].toss, allowed)
+    let row = |subject: &Subject| {
+        let trial = |flight: &ReferenceFlight| {
+            let allowed = |estimate| Allowance::new(subject, &flight.toss, estimate).as_ref().map(allowed);
+            let found = found(subject.solver.as_ref(), flight);
+            Trial::by(subject, &flight.toss, found.map(|(deviation, estimate)| (deviation, allowed(estimate))))
+        };
+        Fold::Largest.of(&subject.name, &context.data.flights.iter().map(trial).collect::<Vec<_>>())
     };
-    context.subjects.par_iter().map(measure).collect()
+    context.subjects.par_iter().map(row).collect()
 }
-
-pub(super) const DETEST: Check = Check {
-    id: "detest-b5",
-    claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
-            the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the limit.",
-    ceiling: 1e-6,
-    measure: Measure::Own(detest),
-    ..Check::OF_LIBRARY
-};
 
 struct AsymmetricBody;
 
@@ -102,16 +130,6 @@ fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     steppings.iter().map(measure).collect()
 }
 
-pub(super) const MOMENTS: Check = Check {
-    id: "catalogue-moments",
-    claim: "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness \
-            by at most the limit, relative to their size; each coin of one list is in the other.",
-    basis: Basis::PublishedFigure,
-    ceiling: 1e-14,
-    measure: Measure::Own(moments),
-    ..Check::OF_LIBRARY
-};
-
 fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let unknown = context.coins.iter().filter(|coin| CATALOGUE.iter().all(|entry| entry.name != coin.name));
     let unknown = unknown.map(|coin| (f64::INFINITY, coin.name.as_str()));
@@ -128,78 +146,29 @@ fn deviation_of_moments(context: &Context, entry: &Entry) -> f64 {
     [coin.i1(), coin.i3()].into_iter().zip([reference.i1, reference.i3]).map(relative).fold(0.0, f64::max)
 }
 
-pub(super) const PUBLISHED: Check = Check {
-    id: "bodies-published",
-    claim: "Published motions of bodies that are no coins, of up to 100 s: the attitudes of seven flights that were \
-            computed in 128 bits, two of them next to the separatrix and one on it, and the rates of NASA's check case \
-            2, a tumbling brick. Measured: the largest error (rad; of rates, relative to the largest).",
-    basis: Basis::PublishedFigure,
-    ceiling: ceiling::ATTITUDE,
-    unit: "rad",
-    measure: Measure::Own(|context| {
-        Ok(context.subjects.par_iter().filter_map(|subject| published(context, subject)).collect())
-    }),
-    ..Check::OF_SOLVERS
-};
+fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    Ok(context.subjects.par_iter().filter_map(|subject| by_published(context, subject)).collect())
+}
 
 /// The largest error of `subject` on the published motions, with the largest ratio to what its estimate allows; `None` of a
 /// solver for coins.
-fn published(context: &Context, subject: &Subject) -> Option<Measurement> {
+fn by_published(context: &Context, subject: &Subject) -> Option<Measurement> {
     let bodies = &context.data.bodies;
     let landings: Vec<_> = bodies.par_iter().map(|body| subject.solver.land(&body.toss)).collect();
     if landings.iter().any(|landing| matches!(landing, Err(SolveError::NotSymmetric { .. }))) {
         return None;
     }
-    let error = |(body, landing): (&ReferenceBody, &Result<Landing, SolveError>)| {
-        landing.as_ref().map(|landing| body.error(&landing.state)).map_err(Clone::clone)
+    let trial = |(body, landing): (&ReferenceBody, &Result<Landing, SolveError>)| {
+        let found = landing.as_ref().map_err(Clone::clone).map(|landing| {
+            // The published digits are fifteen.
+            let allowed = landing.error.map_or(f64::INFINITY, |estimate| 10.0 * estimate.max(1e-15));
+            (body.error(&landing.state), Some(allowed))
+        });
+        Trial::by(subject, &body.toss, found)
     };
-    let errors: Vec<Deviation> = bodies.iter().zip(&landings).map(error).collect();
-    // The published digits are fifteen.
-    let allowed = |index: usize| {
-        let estimate = landings[index].as_ref().ok().and_then(|landing: &Landing| landing.error);
-        Ok(Some(estimate.map_or(f64::INFINITY, |estimate| 10.0 * estimate.max(1e-15))))
-    };
-    Some(Measurement::largest(subject, &errors, |index| bodies[index].toss, allowed))
+    let trials: Vec<Trial<'_>> = bodies.iter().zip(&landings).map(trial).collect();
+    Some(Fold::Largest.of(&subject.name, &trials))
 }
-
-pub(super) const CHEATED_IN_FLIGHT: Check = Check {
-    id: "cheated-heads-in-flight",
-    claim: "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
-            number of launches that do not; one is enough to fail.",
-    basis: Basis::PublishedFigure,
-    unit: "launches",
-    measure: Measure::Own(|context| at_every_speed(context, [1.0, 1.0, 2.5], Outcome::Heads)),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const TAILS_IN_FLIGHT: Check = Check {
-    id: "tails-in-flight",
-    claim: "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
-            number of launches that do not; one is enough to fail.",
-    basis: Basis::PublishedFigure,
-    unit: "launches",
-    measure: Measure::Own(|context| at_every_speed(context, [2.0, 2.0, 0.5], Outcome::Tails)),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const CHEATED_FOREVER: Check = Check {
-    id: "cheated-heads-forever",
-    claim: "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up \
-            to 30 s by integrators. Measured: the number of launches that do not; one is enough to fail.",
-    unit: "launches",
-    measure: Measure::Own(forever),
-    ..Check::OF_SOLVERS
-};
-
-pub(super) const FIRST_FLIP: Check = Check {
-    id: "first-flip",
-    claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
-            the largest distance from the reference time; it fails above the limit.",
-    ceiling: ceiling::ATTITUDE,
-    unit: "s",
-    measure: Measure::Own(first_flip),
-    ..Check::OF_SOLVERS
-};
 
 fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyhow::Result<Vec<Measurement>> {
     let speeds = (0..=200).map(|step| 3.0 + 0.01 * f64::from(step));
@@ -226,9 +195,11 @@ fn thrown(coin: Coin, rate: [f64; 3], flights: impl Iterator<Item = TimeOfFlight
 fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement {
     let tilts: Vec<_> = tosses.par_iter().map(|toss| subject.solver.tilt(toss)).collect();
     let count = |is: &dyn Fn(Outcome) -> bool| {
-        let found: Vec<Deviation> =
-            tilts.iter().map(|tilt| tilt.clone().map(|tilt| f64::from(is(tilt.outcome())))).collect();
-        Measurement::count(&subject.name, &found, |index, failure| Worst::by(&tosses[index], subject, failure))
+        let trial = |(toss, tilt): (&Toss, &Result<Tilt, SolveError>)| {
+            let found = tilt.clone().map(|tilt| (f64::from(is(tilt.outcome())), None));
+            Trial::by(subject, toss, found)
+        };
+        Fold::Count.of(&subject.name, &tosses.iter().zip(&tilts).map(trial).collect::<Vec<_>>())
     };
     let wrong = count(&|outcome| ![expected, Outcome::Undecided].contains(&outcome));
     let is_claimed = tosses.iter().zip(&tilts).all(|(toss, tilt)| match tilt {
@@ -239,17 +210,17 @@ fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement 
 }
 
 fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let flips = &context.data.first_flips;
-    let measure = |subject: &Subject| {
-        let off = |flip: &FirstFlip| {
+    let row = |subject: &Subject| {
+        let trial = |flip: &FirstFlip| {
             let found = flip_time(subject.solver.as_ref(), flip)?;
-            Ok(found.map(|time| (time - flip.toss.launch.flight_time()).abs()))
+            let off = |time: f64| (time - flip.toss.launch.flight_time()).abs();
+            let found = found.and_then(|time| Ok((off(time), flip_allowance(subject, &flip.toss)?)));
+            anyhow::Ok(Trial::by(subject, &flip.toss, found))
         };
-        let off: Vec<Deviation> = flips.iter().map(off).collect::<anyhow::Result<_>>()?;
-        let toss = |index: usize| flips[index].toss;
-        Ok(Measurement::largest(subject, &off, toss, |index| flip_allowance(subject, &toss(index))))
+        let trials: Vec<Trial<'_>> = context.data.first_flips.iter().map(trial).collect::<anyhow::Result<_>>()?;
+        Ok(Fold::Largest.of(&subject.name, &trials))
     };
-    context.subjects.par_iter().map(measure).collect()
+    context.subjects.par_iter().map(row).collect()
 }
 
 /// The error (s) that the solver's estimate allows for a flip at the landing of `toss`: the allowed error of cos θ

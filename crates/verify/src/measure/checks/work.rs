@@ -7,26 +7,33 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use toss::{Coin, Formulation, InputError, Stepping};
 
-use crate::measure::check::{Check, Measure};
+use crate::measure::check::Check;
+use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::convergence::{Convergence, error};
-use crate::measure::measurement::Measurement;
 use crate::measure::reference::Reference;
 use crate::measure::run::Answer;
 use crate::measure::subject::{Subject, usual};
 use crate::measure::tosses::random_flights;
+use crate::measure::trial::Measurement;
 use crate::measure::work_precision::Sample;
 use crate::slope::slope;
 
-pub(super) const WITHIN_ESTIMATE: Check = Check {
-    id: "work-precision",
-    claim: "On every problem, at every tolerance from 1e-3 to 1e-14 or step from 1/|ω| down, the error of the \
-            attitude is within the solver's error estimate. Measured: the largest error divided by what the estimate \
-            allows; it fails above the limit.",
-    ceiling: 1.0,
-    measure: Measure::Own(within_estimate),
-    ..Check::OF_SOLVERS
-};
+pub(super) const CHECKS: &[Check] = &[
+    Check::of_solvers("work-precision", Own(within_estimate)).up_to(1.0, "1").claims(
+        "On every problem, at every tolerance from 1e-3 to 1e-14 or step from 1/|ω| down, the error of the attitude is \
+         within the solver's error estimate. Measured: the largest error divided by what the estimate allows; it fails \
+         above the limit.",
+    ),
+    Check::of_solvers("convergence-order", Own(order)).up_to(0.5, "1").claims(
+        "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the distance \
+         of the fitted power from that order; it fails above the limit.",
+    ),
+    Check::of_solvers("tolerance-proportion", Own(proportion)).up_to(0.5, "1").claims(
+        "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
+         Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the limit.",
+    ),
+];
 
 fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let sweep = context.sweep.get(context)?;
@@ -47,15 +54,6 @@ fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(sweep.judged().iter().map(row).collect())
 }
 
-pub(super) const ORDER: Check = Check {
-    id: "convergence-order",
-    claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
-            distance of the fitted power from that order; it fails above the limit.",
-    ceiling: 0.5,
-    measure: Measure::Own(order),
-    ..Check::OF_SOLVERS
-};
-
 fn order(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let row = |found: &Convergence| {
         let observed = found.observed.unwrap_or(f64::NAN);
@@ -65,15 +63,6 @@ fn order(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     };
     Ok(context.convergence.get(context)?.iter().map(row).collect())
 }
-
-pub(super) const PROPORTION: Check = Check {
-    id: "tolerance-proportion",
-    claim: "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
-            Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the limit.",
-    ceiling: 0.5,
-    measure: Measure::Own(proportion),
-    ..Check::OF_SOLVERS
-};
 
 /// Number of flights whose errors are added up. The error of one flight depends on where its last step happens to end.
 const FLIGHTS: u64 = 100;

@@ -44,9 +44,6 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
 }
 
 /// Draws the charts of all records that the `report` has.
-///
-/// # Errors
-/// [`ChartError`] if one can't be drawn.
 pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     let records = &report.context;
     let palette = Palette::new(&records.registry);

@@ -94,6 +94,7 @@ pub(super) const FAULTS: &[Fault] = &[
         &["reference-attitude", "random-attitude", "first-flip"],
     ),
     // Answers.
+    ("lost-half", HONEST, without_the_half, LOST_HALF),
     ("flipped", HONEST, |toss| Ok(turned(fly(*toss)?, Attitude::about_x(PI))), FLIPPED),
     (
         "negated",
@@ -169,6 +170,16 @@ pub(super) const FAULTS: &[Fault] = &[
     ("claims-2-and-is-flipped", Some(2.0), |toss| Ok(turned(fly(*toss)?, Attitude::about_x(PI))), FLIPPED),
 ];
 
+/// The checks that must see a quaternion that turns at twice its rate, as by an equation without its factor of one half.
+const LOST_HALF: &[&str] = &[
+    "reference-cos-tilt",
+    "random-attitude",
+    "invariant-momentum-vector",
+    "tails-in-flight",
+    "first-flip",
+    "fig4-same-counts",
+];
+
 pub(super) const SILENCE: &str = "adversarial-silence";
 
 /// The checks that a solver with heads for tails cannot pass by any table of limits.
@@ -187,6 +198,13 @@ pub(super) const FLIPPED: &[&str] = &[
 
 pub(super) fn fly(toss: CoinToss) -> Solved {
     ExactSolver.land(&toss.into())
+}
+
+/// The coin turns twice as far as it should.
+fn without_the_half(toss: &CoinToss) -> Solved {
+    let Landing { state: State { attitude, rate }, work, .. } = fly(*toss)?;
+    let turn = toss.launch.attitude().inverse() * attitude;
+    Ok(Landing::new(State { attitude: attitude * turn, rate }, work))
 }
 
 fn still(toss: &CoinToss) -> Landing {
