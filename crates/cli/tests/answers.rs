@@ -3,29 +3,27 @@
 //! bad input. The test fails if a change that was only to rebuild code changes an answer.
 //!
 //! With the environment variable `RECORD_ANSWERS` the test writes the file anew. Each line that then differs needs a reason.
-//! `ANSWERS_OF` names another program, with what starts it: one built for another processor, and its emulator.
+//! `ANSWERS_OF` names another program: see `common`.
 
 mod common;
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-use common::{stderr, stdout};
+use common::{run, stderr, stdout};
 use serde_json::{Value, json};
 
 /// What the program answers: its exit status, its JSON if there is one, and its message.
-fn answer(program: &[&str], line: &str) -> Value {
-    let output = Command::new(program[0]).args(&program[1..]).args(line.split_whitespace()).output();
-    let output = output.expect("the program starts");
+fn answer(line: &str) -> Value {
+    let output = run(line);
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| stdout(&output).into());
     json!({ "line": line, "status": output.status.code(), "answer": answer, "message": stderr(&output) })
 }
 
-/// What `program` answers to the lines of `recorded`, by all processors.
-fn answers(program: &[&str], recorded: &[Value]) -> Vec<Value> {
+/// What the program answers to the lines of `recorded`, by all processors.
+fn answers(recorded: &[Value]) -> Vec<Value> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let ask = |before: &Value| answer(program, before["line"].as_str().expect("a command line"));
+    let ask = |before: &Value| answer(before["line"].as_str().expect("a command line"));
     std::thread::scope(|scope| {
         let shares = recorded.chunks(recorded.len().div_ceil(threads).max(1));
         let running: Vec<_> = shares.map(|share| scope.spawn(|| share.iter().map(ask).collect::<Vec<_>>())).collect();
@@ -38,8 +36,7 @@ fn recorded_command_lines_answer_what_they_answered() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/answers.jsonl");
     let text = fs::read_to_string(&file).expect("the recorded answers");
     let recorded: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
-    let program = std::env::var("ANSWERS_OF").unwrap_or(env!("CARGO_BIN_EXE_unfair-toss").to_owned());
-    let found = answers(&program.split(' ').collect::<Vec<_>>(), &recorded);
+    let found = answers(&recorded);
     if std::env::var_os("RECORD_ANSWERS").is_some() {
         fs::write(&file, found.iter().map(|now| format!("{now}\n")).collect::<String>()).expect("a file to write");
         return;

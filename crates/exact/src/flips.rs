@@ -181,7 +181,7 @@ impl<'a> Flips<'a> {
         let slack = 2.0 * (radius - 0.5 * step);
         let distance = |x: f64| 0.5 * step * (1.0 + x);
         let mut open = Step::Open(0.0, 0.5 * step);
-        for (stage, work) in self.line.work().iter().enumerate() {
+        for (stage, work) in self.line.work().iter().take(self.line.interval_stages()).enumerate() {
             self.work += work;
             let seen = self.line.enclosure(stage, middle, radius).facing(self.sign, self.sense);
             let x = seen.positive_up_to();
@@ -201,8 +201,8 @@ impl<'a> Flips<'a> {
             // A narrower step does not get below the error of the toss where this one is no longer known.
             const MOST_OF_ROUNDING: f64 = 1.0 / 16.0;
             self.work += work;
-            let single = self.line.enclosure(stage, middle + self.sense * radius * x, 0.0);
-            if single.error() < MOST_OF_ROUNDING * seen.error() {
+            let rounding = self.line.rounding(stage, middle + self.sense * radius * x);
+            if rounding < MOST_OF_ROUNDING * seen.error() {
                 break;
             }
         }

@@ -52,22 +52,19 @@ pub(super) fn tensor<N: Elementary>(toss: &Toss, like: &N) -> Symmetric<N> {
 impl Given<Ball<DoubleDouble>> {
     /// In double-double, for another `time` of flight than that of the launch if there is one.
     pub(super) fn in_double_double(toss: &Toss, time: Option<ExactTime>) -> Self {
-        let rate = toss.launch.rate();
-        let exponent = mantissa_and_exponent(power_of_two_scale(rate.amax())).1;
+        let (rate, unit) = toss.launch.given_rate();
+        let exponent = mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax())).1;
         let launch = ExactTime::from(toss.launch.time_of_flight());
         let time = match time.filter(|time| *time != launch) {
             Some(time) => (Ball::new(time.mantissa(), 0.0), time.exponent()),
             None => (right_to_25_u2(launch.mantissa()), launch.exponent()),
         };
-        let number = |value: DoubleDouble| Ball::new(value, 0.0);
-        let zero = number(DoubleDouble::ZERO);
-        // A rate that was not given in rad/s has an error of 16 u²; a tiny one has lost digits.
-        let is_exact = toss.launch.given_rate().1 == AngleUnit::RADIAN;
-        let rate = toss.launch.exact_rate().map(|part| {
-            let own = number(part).times_power_of_two(-exponent);
-            let relative = if part.hi().abs() < 1e-250 { 2f64.powi(-50) } else { 2f64.powi(-101) };
-            if is_exact || part.hi() == 0.0 { own } else { own.widened(own.to_f64().abs() * relative) }
-        });
+        let zero = Ball::new(DoubleDouble::ZERO, 0.0);
+        let given = [0, 1, 2].map(|axis: usize| zero.like(rate[axis]).times_power_of_two(-exponent));
+        let rate = match unit {
+            AngleUnit::RADIAN => given,
+            unit => given.map(|part| part * zero.like_big(&unit.in_digits(160))),
+        };
         Self {
             tensor: tensor(toss, &zero),
             rate,

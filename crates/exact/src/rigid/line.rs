@@ -24,7 +24,7 @@ use crate::tilt_terms::{scaled_cos_tilt, sign_at_any_phase};
 const DIGITS: [usize; 4] = [256, 448, 960, 3072];
 
 /// The work of an evaluation in each stage, roughly in units of 2 µs.
-const WORK: [u32; 1 + DIGITS.len()] = [30, 240, 700, 1000, 2000];
+const WORK: [u32; 1 + DIGITS.len()] = [30, 240, 6000, 1000, 2000];
 const WORK_OF_COIN: [u32; 2 + DIGITS.len()] = [1, 15, 600, 1000, 3000, 20_000];
 
 /// An input of a toss.
@@ -89,6 +89,11 @@ impl<'a> Line<'a> {
         if self.is_of_coins() { &WORK_OF_COIN } else { &WORK }
     }
 
+    /// The stages that are worth their work over an interval. The others tell the outcome of a toss.
+    pub(crate) fn interval_stages(&self) -> usize {
+        if self.is_of_coins() { WORK_OF_COIN.len() } else { 3 }
+    }
+
     fn is_of_coins(&self) -> bool {
         self.fine.ratio.is_some()
     }
@@ -99,13 +104,18 @@ impl<'a> Line<'a> {
         match stage {
             0 => self.enclosure_in(&self.rough, interval),
             1 => self.enclosure_in(&self.fine, interval),
-            // More digits tell the outcome of a toss; over an interval of tosses, double-double has enough.
-            _ if !self.is_of_coins() && radius > 0.0 => Enclosure::OF_ANYTHING,
             _ => {
                 let (digits, made) = (DIGITS[stage - 2], &self.many[stage - 2]);
                 self.enclosure_in(made.get_or_init(|| self.in_digits(digits)), interval)
             }
         }
+    }
+
+    /// The error of the narrowest interval at a change, which is that of rounding. A Taylor model by doubling has more of it than
+    /// a toss, so that the model is asked.
+    pub(crate) fn rounding(&self, stage: usize, change: f64) -> f64 {
+        let radius = if self.is_of_coins() { 0.0 } else { f64::MIN_POSITIVE };
+        self.enclosure(stage, change, radius).error()
     }
 
     /// The sign of cos θ for this change, 0 if no stage decides it. `work` is added to.

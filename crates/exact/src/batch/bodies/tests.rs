@@ -135,7 +135,7 @@ fn errors_are_within_their_bounds_of_which_a_tenth_would_not_do() {
 
 #[test]
 fn errors_of_long_flights_are_within_their_bounds() {
-    check_errors(400, 5e5, 0.01);
+    check_errors(1500, 5e5, 0.01);
 }
 
 /// There the rounding of E counts, and the series end too early.
