@@ -13,6 +13,16 @@ use crate::values::{Kind, kind, value, value_of};
 /// The options without which a command has hardly any answer.
 const CORE: &str = "rate speed time rate_x rate_y rate_z space scene want accuracy probability method";
 
+/// Options that contradict each other in a toss. The program refuses them where it reads the toss, so that the definition of its
+/// options does not know.
+const CONTRADICTIONS: [&str; 5] =
+    ["coin cylinder moments inertia", "rate turn", "rate wobble", "speed time", "tilt attitude"];
+
+fn contradict(one: &Arg, other: &Arg) -> bool {
+    let has = |names: &str, of: &Arg| names.split(' ').any(|name| of.get_id() == name);
+    CONTRADICTIONS.iter().any(|names| has(names, one) && has(names, other))
+}
+
 /// What is given to the program.
 #[derive(Debug, Clone)]
 pub(crate) struct Case {
@@ -93,6 +103,7 @@ fn options(source: &mut Source, command: &Command) -> Vec<Vec<OsString>> {
         let in_conflict = |other: &&Arg| {
             command.get_arg_conflicts_with(argument).contains(other)
                 || command.get_arg_conflicts_with(other).contains(&argument)
+                || contradict(argument, other)
         };
         if matches!(argument.get_id().as_str(), "help" | "version") || (!heedless && given.iter().any(in_conflict)) {
             continue;
