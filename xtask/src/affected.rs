@@ -69,7 +69,7 @@ const PARTS: [Part; 11] = [
     ),
     part("web", &["web", "unfair-toss", "xtask"], &["web/", "docs/page.png"]),
     // What computes. The command line that prints it adds nothing that a processor could change.
-    part("aarch64", &["toss"], &["crates/numerics/tests/", "crates/exact/tests/"]),
+    part("aarch64", &["toss"], &["crates/exact/tests/"]),
 ];
 
 /// What nothing but `tests`, `lints` and `suite` reads; folders with a slash at the end.

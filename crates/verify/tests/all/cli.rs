@@ -207,7 +207,7 @@ fn github_gets_annotations_after_the_text_and_a_summary_that_is_appended() {
     assert_eq!(text, format!("what another step wrote\n{}", ran.file("summary.md")));
     assert!(text.contains("## ⚠️ WORSE than the baseline: ") && text.contains("### Worse than the baseline: 1"));
     assert_eq!(text.matches("| ✅ | reference-cos-tilt | ").count(), 1, "{text}");
-    assert!(text.contains("  ```sh\n  cargo xtask verify --replay \"i1="), "{text}");
+    assert!(text.contains("  ```sh\n  cargo xtask verify --replay \"moments="), "{text}");
     assert!(text.contains("Worse than the baseline: gamma, by dop853"), "the pattern: {text}");
     // Without the variable, there is a file all the same and no other one.
     let ran = Ran::new("github", None, Path::new(""));
