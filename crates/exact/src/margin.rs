@@ -54,6 +54,9 @@ const RATE_RANGE: f64 = 1000.0;
 /// Changes of the turn that are searched (rad), which bounds the work. Flips further away than some turns are rare.
 const TURN_RANGE: f64 = 2000.0;
 
+/// Changes of the time of flight, the speed and gravity, and the range of times that was searched.
+type InFlight = ([Option<f64>; 3], Option<[f64; 2]>);
+
 /// A flip, if a search found one, and how far the search went.
 type Found = (Option<f64>, f64);
 
@@ -103,7 +106,7 @@ impl Margin {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-fn of_flight(toss: &Toss, outcome: Outcome) -> Result<([Option<f64>; 3], Option<[f64; 2]>), SolveError> {
+fn of_flight(toss: &Toss, outcome: Outcome) -> Result<InFlight, SolveError> {
     let flight = toss.launch.time_of_flight();
     let turn_rate = toss.launch.turn_rate();
     if turn_rate == 0.0 {

@@ -8,7 +8,7 @@
 //! | the numbers as given, and the ladder of more and more digits | `given`, `climb` |
 //! | outcomes with a proof | [`certify`] |
 //! | derivatives | [`Sensitivity`](crate::Sensitivity) |
-//! | the nearest flips, and the speeds that land heads | [`margin`](fn@margin), [`speeds_of_heads`] |
+//! | the nearest flips, and the speeds that land heads | [`margin`](fn@crate::margin), [`speeds_of_heads`](crate::speeds_of_heads), over the intervals of `line` |
 //! | Euler angles, continuous from launch on | [`RigidAngles`] |
 //!
 //! Every number is taken from balls, which contain the true one, and rounded once: of the attitude and the rate they are small enough for
