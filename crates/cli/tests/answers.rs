@@ -3,7 +3,9 @@
 //! bad input. The test fails if a change that was only to rebuild code changes an answer.
 //!
 //! With the environment variable `RECORD_ANSWERS` the test writes the file anew. Each line that then differs needs a reason.
-//! `ANSWERS_OF` names another program: see `common`.
+//! `ANSWERS_OF` names another program: see `common`. Of one for another processor, the lines are left out whose answers
+//! depend on the sine and cosine of the system's library, which rounds differently there: integrations of angles, and
+//! traces, which print angles.
 
 mod common;
 
@@ -31,17 +33,26 @@ fn answers(recorded: &[Value]) -> Vec<Value> {
     })
 }
 
+/// Whether the answer to a line depends on the system's library.
+fn is_of_the_system(recorded: &Value) -> bool {
+    let line = recorded["line"].as_str().expect("a command line");
+    line.contains("gamma") || line.contains("euler") || line.starts_with("compare") || line.starts_with("trace")
+}
+
 #[test]
 fn recorded_command_lines_answer_what_they_answered() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/answers.jsonl");
     let text = fs::read_to_string(&file).expect("the recorded answers");
-    let recorded: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let mut recorded: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    if std::env::var_os("ANSWERS_OF").is_some() {
+        recorded.retain(|answer| !is_of_the_system(answer));
+    }
     let found = answers(&recorded);
     if std::env::var_os("RECORD_ANSWERS").is_some() {
         fs::write(&file, found.iter().map(|now| format!("{now}\n")).collect::<String>()).expect("a file to write");
         return;
     }
-    assert!(recorded.len() > 400, "{} answers", recorded.len());
+    assert!(recorded.len() > 300, "{} answers", recorded.len());
     let moved: Vec<String> = recorded
         .iter()
         .zip(&found)
