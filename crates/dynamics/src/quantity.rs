@@ -136,8 +136,7 @@ impl NamedUnit {
     ///
     /// The product is computed in twice the precision of f64, where its error is below 40 u² with u = 2^-53.
     pub fn to_si(&self, value: f64) -> f64 {
-        // The product would lose the sign of 0.
-        if !value.is_finite() || value == 0.0 {
+        if !value.is_finite() {
             return value;
         }
         let (mantissa, exponent) = mantissa_and_exponent(value);
