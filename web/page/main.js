@@ -4,6 +4,7 @@ import { read } from "./address.js";
 import { showAnswer, showRefusal } from "./answer.js";
 import { Controls } from "./controls.js";
 import { byId, later, onceAFrame, save } from "./dom.js";
+import { Fair } from "./fair.js";
 import { flight, fly, land, table } from "./flight.js";
 import { typed } from "./format.js";
 import { Hand } from "./hand.js";
@@ -11,7 +12,7 @@ import { Integrators } from "./integrators.js";
 import { MapView } from "./map.js";
 import { FRAME } from "./memory.js";
 import { Player } from "./player.js";
-import { address, change, fromAddress, ofPreset, onChange, question, state } from "./state.js";
+import { address, change, fromAddress, ofPreset, onChange, question, state, take } from "./state.js";
 import { apply, colours, onTheme, toggle } from "./theme.js";
 import { Traces } from "./traces.js";
 
@@ -25,7 +26,7 @@ async function main() {
   apply();
   await start();
   const known = ask({ ask: "known" });
-  Object.assign(parts, { controls: new Controls(known), map: new MapView(), hand: new Hand(), traces: new Traces() });
+  Object.assign(parts, { controls: new Controls(known), fair: new Fair(), map: new MapView(), hand: new Hand(), traces: new Traces() });
   parts.integrators = new Integrators(known);
   parts.player = new Player(show);
   Object.assign(measured, { map: parts.map.timing, frames: parts.player.frames });
@@ -48,20 +49,13 @@ async function main() {
   requestAnimationFrame(() => setTimeout(loadScene));
 }
 
-/** Takes the scene of the address, or else the first preset. */
+/** Takes what the address says, or else the first preset. An address with a fault stays as it is until the next change. */
 function readAddress() {
-  const text = read();
-  let found = null;
-  let fault = null;
-  try {
-    found = text && fromAddress(text);
-  } catch (error) {
-    fault = error;
-  }
-  change(found || ofPreset("quarter"));
-  // Until the next change.
-  byId("address-error").textContent = fault && `${fault.message}; this is a quarter as people flip it instead`;
-  byId("address-error").hidden = !fault;
+  const { found, faults } = fromAddress(read());
+  (faults.length > 0 ? take : change)(found ?? ofPreset("quarter"));
+  const rest = found ? "the rest is shown" : "this is a quarter as people flip it instead";
+  byId("address-error").textContent = faults.length > 0 ? `${faults.join("; ")}; ${rest}` : "";
+  byId("address-error").hidden = faults.length === 0;
 }
 
 const announce = later(700, (text) => (byId("announcement").textContent = text));
@@ -99,6 +93,7 @@ function sceneChanged() {
 
 const restOfAnswer = onceAFrame(() => {
   if (!toss) return;
+  parts.fair.show(toss);
   parts.map.update(toss);
   parts.traces.draw();
   parts.traces.mark(flight.time);

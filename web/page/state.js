@@ -43,11 +43,16 @@ const listeners = [];
 export const onChange = (listener) => listeners.push(listener);
 
 /** Changes the scene or the view, tells everybody, and writes it into the address. */
-export function change({ scene, view }, source = null) {
+export function change(changed, source = null) {
+  take(changed, source);
+  write(address());
+}
+
+/** The same, and leaves the address as it is. */
+export function take({ scene, view }, source = null) {
   if (scene) state.scene = { ...state.scene, ...scene };
   if (view) state.view = { ...state.view, ...view };
   for (const listener of listeners) listener(scene ? "scene" : "view", source);
-  write(address());
 }
 
 /** The scene as the library takes it: what does not apply or is blank is left out. */
@@ -96,43 +101,63 @@ function decoded(name, text) {
   }
 }
 
-/** Reads an address. Gives the scene and the view, or throws an error that names what is wrong. */
+/**
+ * Reads an address. Gives what is `found`, a scene and a view, and what is wrong: `faults`, a sentence each. What is right
+ * is kept. Nothing is found where nothing is right, or where two parts of a launch contradict each other.
+ */
 export function fromAddress(text) {
-  const given = {};
+  const given = Object.create(null);
+  const faults = [];
   for (const pair of text.split("&").filter(Boolean)) {
-    const [name, value = ""] = pair.split(/=(.*)/s);
-    if (name in given) throw new Error(`the address gives '${name}' twice`);
-    if (name !== "preset" && !(name in BLANK) && !(name in VIEW)) throw new Error(`the address has '${name}', which is unknown`);
-    if (["body", "by", "flight"].includes(name)) throw new Error(`the address has '${name}', which is unknown`);
-    given[name] = decoded(name, value);
-    // Some programs escape the commas between the rates, too.
-    if (name === "rate") given[name] = (value.includes(",") ? value : given[name]).split(",").map((part) => decoded(name, part));
-    if (CHOICES[name] && !CHOICES[name].includes(given[name])) {
-      throw new Error(`the address has '${name}=${given[name]}': valid are ${CHOICES[name].join(", ")}`);
-    }
-    if (name === "pace" && !(Number(given[name]) > 0 && Number(given[name]) <= 1000)) {
-      throw new Error(`the address has 'pace=${given[name]}': valid is a number above 0 and at most 1000`);
+    try {
+      readPair(given, ...pair.split(/=(.*)/s));
+    } catch ({ message }) {
+      faults.push(message);
     }
   }
-  if (given.preset) return ofPreset(given.preset);
-  const view = { ...VIEW };
-  for (const name of Object.keys(VIEW)) if (name in given) view[name] = given[name];
-  return { scene: sceneOf(given), view };
+  if (Object.keys(given).length === 0) return { found: null, faults };
+  try {
+    const preset = "preset" in given ? ofPreset(given.preset) : { scene: BLANK, view: VIEW };
+    const view = { ...preset.view };
+    for (const name of Object.keys(VIEW)) if (name in given) view[name] = given[name];
+    return { found: { scene: sceneOf(given, preset.scene), view }, faults };
+  } catch ({ message }) {
+    return { found: null, faults: [...faults, message] };
+  }
 }
 
-function sceneOf(given) {
-  const scene = { ...BLANK };
+/** Puts what a pair of the address says into `given`, or throws an error that names what is wrong. */
+function readPair(given, name, value = "") {
+  if (name in given) throw new Error(`the address gives '${name}' twice`);
+  const isKnown = name === "preset" || Object.hasOwn(BLANK, name) || Object.hasOwn(VIEW, name);
+  if (!isKnown || ["body", "by", "flight"].includes(name)) throw new Error(`the address has '${name}', which is unknown`);
+  let read = decoded(name, value);
+  // Some programs escape the commas between the rates, too.
+  if (name === "rate") {
+    read = (value.includes(",") ? value : read).split(",").map((part) => decoded(name, part));
+    if (read.length !== 3) throw new Error("the address has a rate that is not three numbers");
+  }
+  if (CHOICES[name] && !CHOICES[name].includes(read)) {
+    throw new Error(`the address has '${name}=${read}': valid are ${CHOICES[name].join(", ")}`);
+  }
+  if (name === "pace" && !(Number(read) > 0 && Number(read) <= 1000)) {
+    throw new Error(`the address has 'pace=${read}': valid is a number above 0 and at most 1000`);
+  }
+  given[name] = read;
+}
+
+/** The scene that `given` makes of another one. */
+function sceneOf(given, begun) {
+  const scene = { ...begun };
   for (const name of Object.keys(BLANK)) if (name in given) scene[name] = given[name];
   const one = (names, chosen) => {
     const found = names.filter((name) => name in given);
     if (found.length > 1) throw new Error(`the address gives ${found.join(" and ")}: only one of them can be used`);
     return found[0] ?? chosen;
   };
-  scene.body = one(["coin", "cylinder", "moments"], "coin");
-  scene.flight = one(["speed", "time"], "speed");
-  if ("turn" in given || "wobble" in given) scene.by = one(["rate", "turn"], "turn");
-  if (given.rate) scene.rate = given.rate;
-  if (scene.rate.length !== 3) throw new Error("the address has a rate that is not three numbers");
+  scene.body = one(["coin", "cylinder", "moments"], begun.body);
+  scene.flight = one(["speed", "time"], begun.flight);
+  scene.by = one(["rate", "turn" in given ? "turn" : "wobble"], begun.by).replace("wobble", "turn");
   return scene;
 }
 

@@ -35,23 +35,41 @@ test("the address carries the scene and the view there and back", async () => {
   await close(page);
 });
 
-test("an address that is wrong is named, and not used in part", async () => {
+test("an address that contradicts itself is named, and stays until the next change", async () => {
   for (const [given, words] of [
+    ["toString=1", "'toString', which is unknown"],
+    ["rate=1,2,3&wobble=1", "rate and wobble"],
     ["spede=3", "'spede', which is unknown"],
     ["rate=1,2", "not three numbers"],
     ["rate=1,2,3&turn=4", "rate and turn"],
-    ["speed=3&speed=4", "'speed' twice"],
     ["preset=none", "preset 'none'"],
     ["speed=%zz", "'speed=%zz'"],
-    ["rate=1,2,3&map=none", "'map=none': valid are rate_z, speed"],
-    ["scheme=none", "'scheme=none': valid are dop853"],
     ["pace=fast", "'pace=fast'"],
   ]) {
     const page = await open(browser, given);
     assert.ok((await text(page, "address-error")).includes(words), given);
     assert.equal(await page.getAttribute("[data-preset=quarter]", "aria-pressed"), "true");
+    assert.equal(await page.evaluate(() => location.hash.slice(1)), given);
     await page.click("[data-preset=tails]");
     assert.ok(await page.locator("#address-error").isHidden());
+    await close(page);
+  }
+});
+
+test("what an address has right is kept beside what is wrong, and a preset can be changed", async () => {
+  for (const [given, words, id, value] of [
+    ["foo=1&speed=5", "'foo', which is unknown; the rest is shown", "speed", "5"],
+    ["speed=3&speed=4", "'speed' twice", "speed", "3"],
+    ["rate=1,2,3&map=none", "'map=none': valid are rate_z, speed", "rate-y", "2"],
+    ["speed=4&scheme=none", "'scheme=none': valid are dop853", "speed", "4"],
+    ["preset=quarter&speed=9m/s", "", "speed", "9m/s"],
+    ["preset=quarter&speed=9m/s", "", "turn", "38rev/s"],
+    ["preset=keller&turn=9&wobble=1", "", "wobble", "1"],
+  ]) {
+    const page = await open(browser, given);
+    assert.ok((await page.locator("#address-error").textContent()).includes(words), given);
+    assert.equal(await page.locator("#address-error").isHidden(), words === "", given);
+    assert.equal(await page.inputValue(`#${id}`), value, given);
     await close(page);
   }
 });
@@ -360,6 +378,51 @@ test("on a phone the coin, the button and the answer are on the first screen", a
   }
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
   await close(page);
+});
+
+test("the curve has the launch on it, and moving the point throws another one", async () => {
+  const page = await open(browser, "coin=us-quarter&turn=38rev/s&wobble=60deg&speed=2.4");
+  const curve = page.locator("#fair-curve");
+  const shown = () => curve.getAttribute("aria-valuetext");
+  // 1/2 + asin(cot² 60°)/π = 0.60817
+  assert.equal(await shown(), "ψ 60.0°, 60.8 % heads");
+  assert.match(await text(page, "fair-words"), /60\.8 % land heads/);
+  assert.match(await text(page, "fair-share"), /heads (59|60|61|62)\.\d % of this flight/);
+  await curve.press("ArrowRight");
+  assert.equal(await page.inputValue("#wobble"), "61deg");
+  assert.equal(await page.inputValue("#turn"), "38rev/s");
+  const { x, y, width, height } = await curve.boundingBox();
+  // The axis of 0° to 90° goes from 52 to 388 of 400.
+  await page.mouse.click(x + ((52 + 336 / 2) / 400) * width, y + height / 2);
+  assert.match(await shown(), /^ψ 4[45]\.\d°, (100|9\d\.\d) % heads/);
+  await page.fill("#tilt", "20deg");
+  assert.match(await text(page, "fair-words"), /beside the curve/);
+  await page.fill("#turn", "1rev/s");
+  assert.match(await text(page, "fair-words"), /too few/);
+  await page.fill("#turn", "1000rev/s");
+  assert.ok(await page.locator("#fair-strip").isHidden());
+  await page.click("[data-preset=racket]");
+  assert.ok(await curve.isHidden());
+  await close(page);
+});
+
+test("on every screen the sliders can be held, the presets seen and the buttons hit", async () => {
+  for (const [width, height] of [[320, 640], [390, 844], [844, 390], [1280, 800]]) {
+    const page = await open(browser, "", { viewport: { width, height } });
+    const boxes = (selector) => page.locator(selector).evaluateAll((all) => all.map((one) => one.getBoundingClientRect()).filter((box) => box.width > 0));
+    for (const box of await boxes(".quantity input[type=range]")) assert.ok(box.width >= 100, `${width}: ${box.width}`);
+    for (const box of await boxes("#presets button")) assert.ok(box.left >= 0 && box.right <= width, `${width}: ${box.right}`);
+    for (const box of await boxes("button, select, input[type=radio], a:not(.skip)")) {
+      assert.ok(Math.min(box.width, box.height) >= 24, `${width}: ${box.width} × ${box.height}`);
+    }
+    if (width === 844) {
+      for (const id of ["#scene", "#play", "#outcome"]) {
+        const box = await page.locator(id).boundingBox();
+        assert.ok(box.y + box.height <= height, `${id}: ${JSON.stringify(box)}`);
+      }
+    }
+    await close(page);
+  }
 });
 
 test("a hundred throws are counted, drawn, and forgotten with their hand", async () => {
