@@ -8,7 +8,6 @@ mod affected;
 mod contest;
 mod figures;
 mod fuzz;
-mod mutants;
 mod output;
 mod program;
 mod verify;
@@ -41,7 +40,6 @@ enum Task {
     Figures(figures::Figures),
     Fuzz(fuzz::Fuzz),
     Contest(contest::Contest),
-    Mutants(mutants::Mutants),
     Web(web::Web),
     #[command(hide = true)]
     Affected(affected::Affected),
@@ -55,7 +53,6 @@ fn main() -> ExitCode {
         Ok(Task::Figures(task)) => task.run(),
         Ok(Task::Fuzz(task)) => task.run(),
         Ok(Task::Contest(task)) => task.run(),
-        Ok(Task::Mutants(task)) => task.run(),
         Ok(Task::Web(task)) => task.run(),
         Ok(Task::Affected(_)) => affected::Affected::run(),
         Err(asked) if !asked.use_stderr() => output::printed(asked.print()).map(|()| ExitCode::SUCCESS),
