@@ -7,15 +7,6 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const MANIFEST: &str = "[package]
-name = \"downstream\"
-version = \"0.0.0\"
-edition = \"2024\"
-
-[workspace]
-
-";
-
 /// What the examples name themselves, in addition to `toss`.
 const EXAMPLES_NEED: &str = "serde = { version = \"1\", features = [\"derive\"] }
 toml = \"1\"
@@ -24,13 +15,19 @@ toml = \"1\"
 /// Where README.md assumes the clone to be.
 const CLONE: &str = "../unfair-toss/";
 
-/// All of it is built again here, because features differ. The examples take a moment to run, and minutes to optimise.
-const PROFILES: &str = "
-[profile.dev]
-debug = \"line-tables-only\"
-[profile.dev.package.\"*\"]
-debug = false
-";
+/// The crates of this workspace that are built again here, because the workspace around them is another one.
+const CRATES: [&str; 10] = [
+    "chart",
+    "dynamics",
+    "exact",
+    "kinematics-euler",
+    "kinematics-quat",
+    "numerics",
+    "sampling",
+    "toss",
+    "verify",
+    "whole-file",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace")
@@ -80,84 +77,87 @@ fn module(index: usize, block: &str) -> String {
     format!("mod block_{index} {{\n{body}}}\n")
 }
 
-/// A new crate with these blocks, whose program runs all of them. It has the lock file of the workspace, and so the same
-/// versions of what it depends on.
-fn write_crate(dependencies: &str, blocks: &[String]) -> PathBuf {
-    let folder = root().join("target/downstream");
-    std::fs::create_dir_all(folder.join("src")).expect("a folder");
-    let dependencies = dependencies.replace(CLONE, &format!("{}/", root().display()));
-    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{dependencies}{EXAMPLES_NEED}{PROFILES}"))
-        .expect("written");
-    std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
+/// A package `name` in the workspace `target/downstream`. Its dependencies are those that a page shows, with the paths of
+/// this clone.
+fn write_package(folder: &Path, name: &str, manifest: &str, main: &str) {
+    let sources = folder.join(name).join("src");
+    std::fs::create_dir_all(&sources).expect("a folder");
+    let clone = format!("{}/", root().display());
+    std::fs::write(folder.join(name).join("Cargo.toml"), manifest.replace(CLONE, &clone)).expect("written");
+    std::fs::write(sources.join("main.rs"), main).expect("written");
+}
+
+/// The crate of README.md and of the front page of `toss`, whose program runs all of their Rust.
+fn write_crate_of_the_readme(folder: &Path) {
+    let page = read("README.md");
+    let dependencies = blocks_of(&page, |language| language == "toml").concat();
+    assert!(dependencies.contains(CLONE), "{dependencies}");
+    let (readme, front_page) = (blocks(&page, false), blocks(&documentation(&read("crates/toss/src/lib.rs")), true));
+    assert!(!readme.is_empty() && front_page.len() >= 8, "{} and {} blocks", readme.len(), front_page.len());
+    let blocks = [readme, front_page].concat();
     let modules: String = blocks.iter().enumerate().map(|(index, block)| module(index, block)).collect();
     let calls: String = (0..blocks.len()).map(|index| format!("    block_{index}::main()?;\n")).collect();
     let main = format!("{modules}fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{calls}    Ok(())\n}}\n");
-    std::fs::write(folder.join("src/main.rs"), main).expect("written");
-    folder
+    let head = "[package]\nname = \"readme\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n";
+    write_package(folder, "readme", &format!("{head}{dependencies}{EXAMPLES_NEED}"), &main);
 }
 
-#[test]
-fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_workspace() {
-    let readme = blocks(&read("README.md"), false);
-    let dependencies = blocks_of(&read("README.md"), |language| language == "toml").concat();
-    assert!(dependencies.contains(CLONE), "{dependencies}");
-    let front_page = blocks(&documentation(&read("crates/toss/src/lib.rs")), true);
-    assert!(!readme.is_empty() && front_page.len() >= 8, "{} and {} blocks", readme.len(), front_page.len());
-    let folder = write_crate(&dependencies, &[readme, front_page].concat());
-    // What the workspace has built is not built again: target/PROFILE/deps/TEST.
-    let test = std::env::current_exe().expect("a test knows where it is");
-    let target = test.ancestors().nth(3).expect("the folder of builds");
-    let run = Command::new(env!("CARGO"))
-        .args(["run", "--offline", "--quiet", "--target-dir"])
-        .arg(target)
-        .current_dir(&folder)
-        .output()
-        .expect("cargo starts");
-    let (stdout, stderr) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
-    assert!(run.status.success(), "{stdout}{stderr}");
-    // What the README says that its program prints.
-    assert_eq!(stdout, "heads: 0.66566129, integrated 0.66566129\n");
-}
-
-/// The crate of docs/your-solver.md, which has the clone beside it there, and the workspace around it here. Its profiles are those of
-/// the workspace, so that what the workspace has built is not built again.
-fn write_crate_of_the_page() -> PathBuf {
+/// The crate of docs/your-solver.md, which is called `mine`.
+fn write_crate_of_the_page(folder: &Path) {
     let page = read("docs/your-solver.md");
     let block = |kind: &str| {
         let block = page.split(&format!("```{kind}\n")).nth(1).and_then(|rest| rest.split("```").next());
-        block.unwrap_or_else(|| panic!("no block {kind}")).to_owned()
+        block.unwrap_or_else(|| panic!("no block {kind}"))
     };
-    let folder = root().join("target/your-solver");
-    std::fs::create_dir_all(folder.join("src")).expect("a folder");
-    let mut manifest = block("toml Cargo.toml");
-    for name in ["toss", "verify"] {
-        let path = root().join("crates").join(name);
-        let line = format!("{name} = {{ path = \"../unfair-toss/crates/{name}\" }}");
-        assert!(manifest.contains(&line), "{manifest}");
-        manifest = manifest.replace(&line, &format!("{name} = {{ path = {:?} }}", path.display().to_string()));
-    }
+    let manifest = block("toml Cargo.toml");
+    assert!(["toss", "verify"].iter().all(|name| manifest.contains(&format!("{CLONE}crates/{name}"))), "{manifest}");
+    write_package(folder, "mine", manifest, block("rust,no_run src/main.rs"));
+}
+
+/// A workspace of the two, with the lock file and the profiles of this one, so that it shares what this one has built of
+/// others' crates. Ours are built again, in a hurry.
+fn write_workspace() -> PathBuf {
+    let folder = root().join("target/downstream");
+    write_crate_of_the_readme(&folder);
+    write_crate_of_the_page(&folder);
     let workspace = read("Cargo.toml");
-    let profiles = &workspace[workspace.find("[profile.dev]").expect("profiles")..];
-    let profiles: Vec<&str> = profiles.split_inclusive("\n\n").filter(|part| !part.contains("criterion]")).collect();
-    manifest += &format!("\n[workspace]\n\n{}", profiles.concat());
-    std::fs::write(folder.join("Cargo.toml"), manifest).expect("written");
-    std::fs::write(folder.join("src/main.rs"), block("rust,no_run src/main.rs")).expect("written");
+    let profiles = workspace[workspace.find("[profile.dev]").expect("profiles")..].split_inclusive("\n\n");
+    let is_of_others = |part: &&str| {
+        let is_of = |name: &str| part.contains(&format!(".package.{name}]"));
+        !CRATES.iter().chain(&["criterion", "unfair-toss"]).any(|name| is_of(name))
+    };
+    let profiles: String = profiles.filter(is_of_others).collect();
+    let hurried = |name: &&str| format!("[profile.release.package.{name}]\nopt-level = 1\ncodegen-units = 16\n");
+    let hurried: String = CRATES.iter().map(hurried).collect();
+    let members = "[workspace]\nresolver = \"3\"\nmembers = [\"readme\", \"mine\"]\n";
+    std::fs::write(folder.join("Cargo.toml"), format!("{members}\n{profiles}\n{hurried}")).expect("written");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
     folder
 }
 
+/// What a program prints, which has to succeed.
+fn output_of(command: &mut Command) -> String {
+    let run = command.output().expect("it starts");
+    let (stdout, stderr) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+    assert!(run.status.success(), "{stdout}{stderr}");
+    stdout.into_owned()
+}
+
 #[test]
-fn the_crate_of_the_page_for_solvers_is_built_outside_the_workspace_and_passes_a_check() {
-    let folder = write_crate_of_the_page();
+fn crates_outside_the_workspace_build_and_run_as_the_pages_say() {
+    let folder = write_workspace();
+    // Where the workspace has its builds: target/PROFILE/deps/TEST.
     let test = std::env::current_exe().expect("a test knows where it is");
     let target = test.ancestors().nth(3).expect("the folder of builds");
-    let profile: &[&str] = if cfg!(debug_assertions) { &[] } else { &["--release"] };
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["run", "--offline", "--quiet"]).args(profile).arg("--target-dir").arg(target);
-    let run = cargo.args(["--", "--quick", "--only", "random-attitude"]).current_dir(&folder).output();
-    let run = run.expect("cargo starts");
-    let (stdout, stderr) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
-    assert!(run.status.success() && stdout.contains("All 1 rows pass: two-turns."), "{stdout}{stderr}");
+    cargo.args(["build", "--offline", "--quiet", "--release", "--workspace"]).env("CARGO_TARGET_DIR", target);
+    output_of(cargo.current_dir(&folder));
+    let program = |name: &str| Command::new(target.join("release").join(name));
+    // What the README says that its program prints.
+    assert_eq!(output_of(&mut program("readme")), "heads: 0.66566129, integrated 0.66566129\n");
+    let mut mine = program("mine");
+    let printed = output_of(mine.args(["--quick", "--only", "reference-cos-tilt"]).current_dir(folder.join("mine")));
+    assert!(printed.contains("All 1 rows pass: two-turns."), "{printed}");
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn has_a_readable_input(row: &Row) -> bool {
 
 #[test]
 fn the_command_of_every_row_runs_what_the_row_measured() {
-    let context = Context::new(Registry::standard().entries(), Effort::Quick).expect("the data inside the crate");
+    let context = Context::new(Registry::standard().entries(), Effort::Sample).expect("the data inside the crate");
     let rows = rows(&context);
     let unread: Vec<_> = rows.iter().filter(|row| !has_a_readable_input(row)).collect();
     assert!(unread.is_empty(), "{unread:?}");

@@ -35,7 +35,7 @@ fn with_a_wrong_reference_no_check_passes() {
     }
     let limits = Limits::of_this_workspace().unwrap();
     let registry = toss::Registry::standard();
-    let context = Context::new(registry.entries(), Effort::Quick).unwrap();
+    let context = Context::new(registry.entries(), Effort::Sample).unwrap();
     let judged = |basis: Basis| matches!(basis, Basis::ClosedForm | Basis::PublishedFigure);
     let checks = CHECKS.iter().filter(|check| is_of_tosses(&check.measure) && judged(check.basis));
     let (mut number, mut passing) = (0, Vec::new());

@@ -134,7 +134,7 @@ impl Context {
             expected: Expected::of_this_workspace()?,
             exact: ExactLandings::default(),
             survey: Shared::by(|context| {
-                let launches = random_launches(context.effort.of([1000, 5000, 50_000]))?;
+                let launches = random_launches(context.effort.launches([1000, 5000, 50_000]))?;
                 Ok(Survey::of(&context.subjects, launches, Vec::new(), &context.exact))
             }),
             bodies: Shared::by(|context| Ok(Survey::of_bodies(context))),

@@ -7,6 +7,9 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
+    /// A fifth of the launches of `--quick`, for tests that every check does its work. It has no baseline.
+    #[doc(hidden)]
+    Sample,
     /// `--quick`: takes a minute on two cores.
     Quick,
     /// The default: takes three minutes on two cores.
@@ -18,7 +21,7 @@ pub enum Effort {
 impl Effort {
     /// Its name, as in the baseline's file.
     pub fn name(self) -> &'static str {
-        self.of(["quick", "standard", "deep"])
+        if self == Self::Sample { "sample" } else { self.of(["quick", "standard", "deep"]) }
     }
 
     /// The flag that asks for it, after a space; empty for the default.
@@ -27,7 +30,16 @@ impl Effort {
     }
 
     /// That of three sizes which this effort takes: quick, standard, deep.
-    pub fn of<T: Copy>(self, sizes: [T; 3]) -> T {
-        sizes[self as usize]
+    pub fn of<T: Copy>(self, [quick, standard, deep]: [T; 3]) -> T {
+        match self {
+            Self::Sample | Self::Quick => quick,
+            Self::Standard => standard,
+            Self::Deep => deep,
+        }
+    }
+
+    /// The number of launches of a set: quick, standard, deep.
+    pub(crate) fn launches(self, numbers: [u64; 3]) -> u64 {
+        self.of(numbers) / if self == Self::Sample { 5 } else { 1 }
     }
 }

@@ -50,7 +50,7 @@ impl Survey {
 
     /// Solves tosses of bodies of every family with every subject.
     pub(crate) fn of_bodies(context: &Context) -> Self {
-        let number = context.effort.of([20, 100, 15_000]);
+        let number = context.effort.launches([20, 100, 15_000]);
         let of_family =
             |family: &'static Family| launches(family, number, TOSSED).into_iter().map(move |toss| (toss, family.name));
         let (tosses, families) = FAMILIES.iter().flat_map(of_family).unzip();

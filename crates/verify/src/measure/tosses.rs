@@ -118,7 +118,7 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
 
 /// The number of tosses from which a check derives the sizes of its sets.
 pub(super) fn tries(effort: Effort) -> u64 {
-    effort.of([1000, 8000, 350_000])
+    effort.launches([1000, 8000, 350_000])
 }
 
 /// `number` random tosses, of five coins in turn, every second one tilted, and [thrown in every form](throw), whose
