@@ -217,7 +217,9 @@ mod data {
 
         fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Want, A::Error> {
             let Some(Kind(kind)) = table.next_key()? else {
-                return Err(A::Error::custom("want is empty: expected one of outcome, tilt, attitude, trace and probability"));
+                return Err(A::Error::custom(
+                    "want is empty: expected one of outcome, tilt, attitude, trace and probability",
+                ));
             };
             let want = match kind {
                 WantKind::Outcome => Want::Outcome(table.next_value()?),
@@ -276,7 +278,10 @@ mod tests {
             (format!("acuracy = 1\n[want.tilt]\n{launch}"), "unknown field `acuracy`"),
             (format!("accuracy = 1\n[want.heads]\n{launch}"), "want = 'heads' is unknown; known: outcome, tilt"),
             ("accuracy = 1\nwant = 'heads'".to_owned(), "want = 'heads' is unknown; known: outcome, tilt"),
-            ("accuracy = 1\nwant = 'outcome'".to_owned(), "want = 'outcome' is a name alone: below it stands the toss, as in [want.outcome]"),
+            (
+                "accuracy = 1\nwant = 'outcome'".to_owned(),
+                "want = 'outcome' is a name alone: below it stands the toss, as in [want.outcome]",
+            ),
             ("accuracy = 1\nwant = {}".to_owned(), "want is empty"),
             (
                 format!("accuracy = 1\n[want.tilt]\n{launch}[want.outcome]\n{launch}"),

@@ -86,7 +86,8 @@ impl Args {
             let mut chunk = Vec::new();
             // Up to the last launch that has arrived.
             let end = loop {
-                match table.row().map_err(wrong).and_then(|row| row.map(|row| launch(row, &columns, body)).transpose()) {
+                match table.row().map_err(wrong).and_then(|row| row.map(|row| launch(row, &columns, body)).transpose())
+                {
                     Ok(Some(launch)) => chunk.push(launch),
                     Ok(None) => break Some(Ok(())),
                     Err(failure) => break Some(Err(failure)),

@@ -39,7 +39,11 @@ const ANSWERS: &[(&str, &[&str])] = &[
     ),
     (
         "trace",
-        &["--rate 1,1,2.5 --speed 3 --points 3", "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove", "--rate 1,1,2.5 --time 1 --dt 300ms"],
+        &[
+            "--rate 1,1,2.5 --speed 3 --points 3",
+            "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove",
+            "--rate 1,1,2.5 --time 1 --dt 300ms",
+        ],
     ),
     (
         "probability",
@@ -80,7 +84,13 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 40 --rate-y 5 --rate-z 9:20:3 --speed 3:5:3 --solver quaternion --scheme rk4 --step 0.1 --steps 3",
         ],
     ),
-    ("errors", &["--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5", "--space paper-fig4 --up-to 8 --replicates 1 --reference 50%"]),
+    (
+        "errors",
+        &[
+            "--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5",
+            "--space paper-fig4 --up-to 8 --replicates 1 --reference 50%",
+        ],
+    ),
     (
         "map",
         &[
@@ -155,13 +165,14 @@ fn input_is_repeated_as_it_was_given() {
         json("probability --rate-x 0:1 --rate-y x --rate-z 5 --speed 3 --method random --points 9 --threads 2", 0);
     assert_eq!((&space["input"]["rate_x"], &space["input"]["points"]), (&"0:1".into(), &9.into()));
     assert_eq!(space["input"]["threads"], Value::Null);
-    let typed = json("toss --turn 38rev/s --wobble 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
-    assert_eq!(
-        typed.to_string(),
-        r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"speed":"2.4m/s","tilt":"15deg","turn":"38rev/s","wobble":1.0}"#
-    );
-    let typed = json("probability --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"].clone();
-    let expected = r#"{"accuracy":0.01,"command":"probability","speed":"2.4m/s","spread":"5%","turn":"38rev/s","wobble":"60deg"}"#;
+    let typed =
+        json("toss --turn 38rev/s --wobble 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
+    let expected = r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"solver":"exact","speed":"2.4m/s","tilt":"15deg","turn":"38rev/s","wobble":1.0}"#;
+    assert_eq!(typed.to_string(), expected);
+    let typed =
+        json("probability --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"]
+            .clone();
+    let expected = r#"{"accuracy":0.01,"command":"probability","solver":"exact","speed":"2.4m/s","spread":"5%","turn":"38rev/s","wobble":"60deg"}"#;
     assert_eq!(typed.to_string(), expected);
 }
 

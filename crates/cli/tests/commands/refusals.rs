@@ -187,7 +187,7 @@ fn what_others_wrote_is_printed_and_does_nothing_to_the_terminal() {
     }
     // Answers and charts, too.
     std::fs::write(&csv, "person,same,tosses\n\"a\u{1b}[31m\nc\",1,2\nb,1,2\n").unwrap();
-    std::fs::write(&toml, "rate_x = '1:2:3'\nrate_y = '1:2:3'\nrate_z = 1\nspeed = 3").unwrap();
+    std::fs::write(&toml, "rate_x = '1:2:3'\nrate_y = 1\nrate_z = '1:2:3'\nspeed = 3").unwrap();
     let out = |arguments: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
@@ -240,11 +240,21 @@ fn files_are_read_as_editors_write_them_and_their_mistakes_have_a_place() {
         }
     }
     for (command, name, text, words) in [
-        ("plan --scene", "a.json", "{\r\"accuracy\": \"x\"}", "line 2, column 15: invalid type: string \"x\", expected a number"),
+        (
+            "plan --scene",
+            "a.json",
+            "{\r\"accuracy\": \"x\"}",
+            "line 2, column 15: invalid type: string \"x\", expected a number",
+        ),
         ("plan --scene", "a.json", "", "line 1, column 1: the text ends within a value"),
         ("plan --scene", "a.json", r#"{"want": "tilt"}"#, "line 1, column 15: want = 'tilt' is a name alone"),
         ("plan --scene", "a.toml", "accuracy = 1\r\nwant = 'tilt'", "line 2, column 8: want = 'tilt' is a name alone"),
-        ("plan --scene", "a.toml", "accuracy = true", "line 1, column 12: invalid type: boolean `true`, expected a number"),
+        (
+            "plan --scene",
+            "a.toml",
+            "accuracy = true",
+            "line 1, column 12: invalid type: boolean `true`, expected a number",
+        ),
         ("probability --space", "a.toml", "rate_x = 1\n", "line 1, column 11: rate y [rad/s] is missing"),
         ("merge", "a.json", r#"{"range": 5}"#, "line 1, column 11: invalid type: number `5`, expected a list of 2"),
         ("merge", "a.json", r#"{"range": [0, 1], "range": [0, 1]}"#, "line 1, column 25: duplicate field `range`"),

@@ -187,7 +187,10 @@ fn tables_are_read_as_spreadsheets_write_them() {
     }
     for (text, words) in [
         (&b"wx,wy\xff\n"[..], "standard input, line 1, column 2: the text is not UTF-8\n"),
-        (b"\xff\xfew\0x\0", "standard input, line 1, column 1: the text is not UTF-8 but looks like UTF-16; save it as UTF-8\n"),
+        (
+            b"\xff\xfew\0x\0",
+            "standard input, line 1, column 1: the text is not UTF-8 but looks like UTF-16; save it as UTF-8\n",
+        ),
         (b"wx,wy,wz,speed\n1,1,1,\"1\n", "standard input, line 2, column 1: a quotation mark is not closed\n"),
         (b"wx;wy;wz;speed\n1;1;2,5;3\n", "line 2, column 3: rate z [rad/s] = '2,5' can't be used"),
     ] {

@@ -33,7 +33,12 @@ fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 11] {
             "solver 'own' proves nothing: it only estimates",
             None,
         ),
-        (SolveError::StepLimit { time: AT, limit: 7 }, "step_limit", "more than 7 steps needed, stopped at t = 0.5 s", Some(2.5)),
+        (
+            SolveError::StepLimit { time: AT, limit: 7 },
+            "step_limit",
+            "more than 7 steps needed, stopped at t = 0.5 s",
+            Some(2.5),
+        ),
         (SolveError::StepSizeUnderflow { time: AT }, "step_size_underflow", "at t = 0.5 s", Some(2.5)),
         (SolveError::NotFinite { time: AT }, "not_finite", "is not finite at t = 0.5 s", Some(2.5)),
     ]
