@@ -206,8 +206,8 @@ pub(crate) fn input(command: &Command, given: &ArgMatches) -> Input {
     input
 }
 
-/// An option as it was typed: a number where one stands alone, and a text where it has a unit or is more than a number. A flag
-/// that was not given is no input.
+/// An option as it was typed: a number, however it is written, or the text of a quantity with its unit and of anything else. A
+/// flag that was not given is no input.
 fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     fn typed<T: Clone + Send + Sync + 'static>(name: &str, given: &ArgMatches) -> Option<T> {
         given.try_get_one::<T>(name).ok()?.cloned()
@@ -227,10 +227,11 @@ fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     Some(number.or_else(|| list(name, &text)).unwrap_or_else(|| text.into()))
 }
 
-/// The number that `text` is, or the text if it is not a number alone.
+/// A number, or the `text` that it was read from if that has a unit. A percentage is a number as well.
 fn as_typed(text: &str, number: f64) -> Value {
     let text = text.trim();
-    if text.parse::<f64>().is_ok() { number.into() } else { text.into() }
+    let is_number = text.parse::<f64>().is_ok() || text.ends_with('%');
+    if is_number { number.into() } else { text.into() }
 }
 
 /// An option that is a list of numbers.

@@ -138,7 +138,7 @@ impl<R: Read> Table<R> {
     /// Whether a line with text has arrived, so that the next row can be read without waiting for whoever writes it.
     pub fn has_row(&self) -> bool {
         let is_blank = |byte: &&u8| byte.is_ascii_whitespace() || **byte == self.separator;
-        self.lines.waiting().iter().skip_while(is_blank).any(is_end)
+        self.lines.from.buffer().iter().skip_while(is_blank).any(is_end)
     }
 
     /// Reads the next row with text; false at the end.
@@ -261,12 +261,6 @@ impl<R: Read> Lines<R> {
                 }
             }
         }
-    }
-
-    /// What has arrived behind the line.
-    fn waiting(&self) -> &[u8] {
-        let waiting = self.from.buffer();
-        waiting.strip_prefix(b"\n").filter(|_| self.ends_in_return).unwrap_or(waiting)
     }
 
     /// The line as a text.

@@ -172,7 +172,7 @@ fn input_is_repeated_as_it_was_given() {
     let typed =
         json("probability --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"]
             .clone();
-    let expected = r#"{"accuracy":0.01,"command":"probability","solver":"exact","speed":"2.4m/s","spread":"5%","turn":"38rev/s","wobble":"60deg"}"#;
+    let expected = r#"{"accuracy":0.01,"command":"probability","solver":"exact","speed":"2.4m/s","spread":0.05,"turn":"38rev/s","wobble":"60deg"}"#;
     assert_eq!(typed.to_string(), expected);
 }
 
