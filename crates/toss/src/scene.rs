@@ -285,7 +285,7 @@ mod tests {
             ("accuracy = 1\nwant = {}".to_owned(), "want is empty"),
             (
                 format!("accuracy = 1\n[want.tilt]\n{launch}[want.outcome]\n{launch}"),
-                "want is 'tilt' and 'outcome': expected one of them",
+                "want is 'outcome' and 'tilt': expected one of them",
             ),
             ("accuracy = 1\n[want]\ntrace = 5".to_owned(), "invalid type"),
             (
