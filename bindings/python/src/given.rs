@@ -79,6 +79,12 @@ pub(crate) fn text(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyR
     value.extract().map_err(|_| refused_value(field, value, expected))
 }
 
+/// A text of JSON, without the mark of UTF-8 that some editors put before a text.
+pub(crate) fn json(value: &Bound<'_, PyAny>, expected: &str) -> PyResult<String> {
+    let text = text("text", value, expected)?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
 /// The object of one of our classes that an argument is.
 pub(crate) fn object<'a, 'py, T: PyClass>(
     field: &str,

@@ -138,7 +138,7 @@ impl Plan {
     ///     As ``to_json`` writes it.
     #[staticmethod]
     fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = serde_json::from_str::<::toss::sampling::Plan>(&given::text("text", text, "a plan as JSON")?);
+        let read = serde_json::from_str::<::toss::sampling::Plan>(&given::json(text, "a plan as JSON")?);
         Ok(read.map_err(|error| malformed("text", error, "a plan as JSON"))?.into())
     }
 

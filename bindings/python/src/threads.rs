@@ -5,6 +5,7 @@
 //! between them it asks. Other work is done by a thread beside it, while it asks from time to time. Such work owns what it
 //! works on, so that Ctrl-C leaves it to itself: it ends at the next of its blocks, and its result is dropped.
 
+use std::fmt::Display;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
@@ -69,7 +71,13 @@ pub(crate) fn pool(threads: Option<u64>) -> PyResult<rayon::ThreadPool> {
         Some((number, _)) => return Err(malformed("threads", number, "1 to 1024, or None for one per core")),
     };
     let build = rayon::ThreadPoolBuilder::new().num_threads(number).build();
-    build.map_err(|error| malformed("threads", error, "as many threads as the system can start"))
+    let threads = if number == 0 { "a thread per core".to_owned() } else { format!("{number} threads") };
+    build.map_err(|error| cannot_start(&threads, format!("{error}; try threads=1")))
+}
+
+/// The exception of threads that the system does not start: that of Python's own threads, as no argument is at fault.
+fn cannot_start(threads: &str, error: impl Display) -> PyErr {
+    PyRuntimeError::new_err(format!("cannot start {threads}: {error}"))
 }
 
 /// The result of `work`, which a thread of its own does; or the exception of a signal.
@@ -84,7 +92,7 @@ pub(crate) fn aside<R: Send + 'static>(
         // Nobody may be there to take it.
         drop(told.send(catch_unwind(AssertUnwindSafe(|| work(&of_work)))));
     });
-    start.map_err(|error| malformed("threads", error, "a thread that the system can start"))?;
+    start.map_err(|error| cannot_start("a thread", error))?;
     let answer = py.detach(move || listening(&stop, done))?;
     Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
 }

@@ -191,6 +191,9 @@ def test_a_part_that_is_there_is_not_computed_again_and_a_wrong_one_is_refused(t
     again = ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path)
     assert (again.heads, again.tails, again.interval) == (found.heads, found.tails, found.interval)
     assert found.certified and not again.certified  # A file proves nothing.
+    for path in tmp_path.iterdir():
+        path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")  # As some editors do.
+    assert ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path).heads == found.heads
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == [f"part-{index}-of-5.json" for index in range(1, 6)]
     (tmp_path / names[0]).write_text((tmp_path / names[1]).read_text())
@@ -214,6 +217,17 @@ def test_a_part_with_a_changed_digit_is_refused_with_its_file(tmp_path, field):
         ut.probability(FIG4, RANDOM, shards=2, folder=tmp_path)
     with pytest.raises(errors.InputError, match="digest"):
         ut.Tally.from_json(path.read_text())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the system has no umask")
+@pytest.mark.parametrize("umask", [0o022, 0o027])
+def test_a_part_is_as_readable_as_any_new_file(tmp_path, umask):
+    before = os.umask(umask)
+    try:
+        ut.probability(FIG4, RANDOM, shards=2, folder=tmp_path)
+    finally:
+        os.umask(before)
+    assert {path.stat().st_mode & 0o777 for path in tmp_path.iterdir()} == {0o666 & ~umask}
 
 
 def lying(space, plan, start, end, threads):

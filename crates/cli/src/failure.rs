@@ -7,6 +7,7 @@ use chart::ChartError;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
+use whole_file::{TableError, printable};
 
 use crate::json::{SCHEMA, plain_json};
 
@@ -14,7 +15,7 @@ use crate::json::{SCHEMA, plain_json};
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// Invalid input, or a solver that failed.
-    #[error(transparent)]
+    #[error("{}", counted_from_1(.0))]
     Unanswered(#[from] Error),
     /// Arguments that are not understood.
     #[error("{}", words(.0))]
@@ -54,22 +55,32 @@ pub(crate) enum Failure {
         source: Error,
     },
     /// A row of a file of which a value is invalid.
-    #[error("{path}, line {line}: {source}")]
+    #[error("{path}, line {line}, column {column}: {source}")]
     Row {
         /// The file.
         path: String,
         /// The line, from 1.
         line: u64,
+        /// The cell in it, from 1.
+        column: usize,
         /// What is wrong with it.
         source: InputError,
     },
-    /// A file of a part that is none, or does not fit.
+    /// A file of a part that does not fit.
     #[error("{path}: {message}")]
     Part {
         /// The file.
         path: String,
         /// What is wrong with it.
         message: String,
+    },
+    /// Threads that the system does not start.
+    #[error("cannot start {number} threads: {source}; try --threads 1")]
+    Threads {
+        /// How many.
+        number: usize,
+        /// Why not.
+        source: rayon::ThreadPoolBuildError,
     },
     /// Standard output that can't be written.
     #[error("cannot write standard output: {0}")]
@@ -117,19 +128,30 @@ impl Failure {
         Self::Part { path: path.to_owned(), message }
     }
 
+    /// The place in the table at `path` that is at fault.
+    pub(crate) fn table(path: &str, TableError { line, column, message }: TableError) -> Self {
+        let line = usize::try_from(line).unwrap_or(usize::MAX);
+        Self::Text { path: path.to_owned(), source: Error::Text { line, column, message } }
+    }
+
+    /// What is wrong, in one line: names and values that somebody gave stand as in a string of Rust.
+    fn message(&self) -> String {
+        printable(&self.to_string()).into_owned()
+    }
+
     /// Says on `err` what is wrong. If that can't be written there is nowhere left to say so.
     pub(crate) fn report(&self, err: &mut dyn Write) {
         let _ = match self {
             // With colours and the usage.
             Self::Arguments(error) => write!(err, "{}", error.render().ansi()),
-            _ => writeln!(err, "error: {self}"),
+            _ => writeln!(err, "error: {}", self.message()),
         };
     }
 
-    /// The exit code: 1 if the solver failed or the answer can't be printed, 2 for bad usage or input.
+    /// The exit code: 1 if the solver failed, the answer can't be printed or threads can't start, 2 for bad usage or input.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Print(_) => 1,
+            Self::Print(_) | Self::Threads { .. } => 1,
             Self::Unanswered(error) if !error.is_input() => 1,
             _ => 2,
         }
@@ -141,6 +163,7 @@ impl Failure {
                 error.kind()
             }
             Self::Arguments(_) | Self::Usage { .. } | Self::Row { .. } | Self::Part { .. } => "input",
+            Self::Threads { .. } => "threads",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
@@ -151,7 +174,7 @@ impl Failure {
     pub(crate) fn to_json(&self) -> String {
         let mut error = Map::new();
         error.insert("kind".to_owned(), json!(self.kind()));
-        error.insert("message".to_owned(), json!(self.to_string()));
+        error.insert("message".to_owned(), json!(self.message()));
         if let Value::Object(details) = self.details() {
             error.extend(details);
         }
@@ -162,8 +185,9 @@ impl Failure {
         match self {
             Self::Unanswered(error) | Self::Value { source: error, .. } => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
-            Self::Row { path, line, source } => {
-                with(with(input_details(source), "path", json!(path)), "line", json!(line))
+            Self::Row { path, line, column, source } => {
+                let place = [("path", json!(path)), ("line", json!(line)), ("column", json!(column))];
+                place.into_iter().fold(input_details(source), |details, (key, value)| with(details, key, value))
             }
             Self::Part { path, .. } => json!({"path": path}),
             Self::Read { option, path, .. } | Self::Write { option, target: path, .. } => {
@@ -171,9 +195,15 @@ impl Failure {
             }
             Self::Arguments(error) => argument_details(error),
             Self::Usage { field, .. } => json!({"field": field}),
+            Self::Threads { .. } => json!({"field": "threads"}),
             Self::Print(_) | Self::Chart(_) => json!({}),
         }
     }
+}
+
+/// What is wrong, with the number from 1 of the launch at fault: people count so, and the library by an index from 0.
+fn counted_from_1(error: &Error) -> String {
+    error.clone().after(1).to_string()
 }
 
 /// What clap says is wrong, in a line, without the usage.

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter};
+use whole_file::is_hidden;
 
 /// The number of the format that `docs/json.md` describes. It grows when a field changes its meaning or goes away.
 pub(crate) const SCHEMA: u32 = 1;
@@ -11,15 +12,28 @@ pub(crate) const SCHEMA: u32 = 1;
 /// Plain data as JSON: numbers with the fewest digits that read back as the same number, and no -0.
 pub(crate) fn plain_json(value: &impl Serialize) -> String {
     let mut text = Vec::new();
-    let written = value.serialize(&mut serde_json::Serializer::with_formatter(&mut text, NoNegativeZero));
+    let written = value.serialize(&mut serde_json::Serializer::with_formatter(&mut text, Plain));
     written.expect("plain data with string keys is always JSON");
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// Compact JSON in which -0, which equals 0 and surprises programs, is 0.
-struct NoNegativeZero;
+/// Compact JSON in which -0, which equals 0 and surprises programs, is 0, and in which no letter of a text is hidden.
+struct Plain;
 
-impl Formatter for NoNegativeZero {
+impl Formatter for Plain {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, to: &mut W, fragment: &str) -> std::io::Result<()> {
+        for part in fragment.split_inclusive(is_hidden) {
+            let hidden = part.chars().next_back().filter(|letter| is_hidden(*letter));
+            let seen = &part[..part.len() - hidden.map_or(0, char::len_utf8)];
+            to.write_all(seen.as_bytes())?;
+            if let Some(letter) = hidden {
+                // All of them have one unit of UTF-16.
+                write!(to, "\\u{:04x}", u32::from(letter))?;
+            }
+        }
+        Ok(())
+    }
+
     fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> std::io::Result<()> {
         CompactFormatter.write_f64(to, without_sign_of_zero(value))
     }

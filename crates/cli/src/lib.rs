@@ -140,7 +140,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Stream
     let printed = match program_with(registry).try_get_matches_from(arguments) {
         Ok(given) => answer(registry, &given, &mut streams).and_then(|text| output::print(&text, streams.out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
-        Err(error) => Err(Failure::Arguments(error)),
+        Err(raw) => Err(Failure::Arguments(refusal(registry, arguments, raw))),
     };
     let Err(failure) = printed else { return 0 };
     failure.report(streams.err);
@@ -166,6 +166,15 @@ fn program_with(registry: &Registry) -> clap::Command {
             None => argument,
         })
     })
+}
+
+/// What is wrong with `arguments` that are not understood. They are read again as they are printed, so that no message holds a
+/// character that does something to a terminal; `raw` is what is wrong if they are understood then.
+fn refusal(registry: &Registry, arguments: &[OsString], raw: clap::Error) -> clap::Error {
+    let printed = |argument: &OsString| {
+        argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into_owned().into())
+    };
+    program_with(registry).try_get_matches_from(arguments.iter().map(printed)).err().unwrap_or(raw)
 }
 
 /// The answer of the command that the arguments ask for.

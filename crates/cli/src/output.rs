@@ -5,11 +5,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Command};
-use dynamics::Thrown;
+use dynamics::data::in_words;
 use dynamics::quantity::Given;
 use dynamics::thrown::{Field, Holds};
+use dynamics::{Error, Thrown};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
@@ -98,8 +100,10 @@ impl SeriesArgs {
     ) -> Result<String, Failure> {
         if let Some(path) = &self.svg {
             let chart = draw()?;
+            // XML has no control characters, and the title may have the name of a file.
+            let chart = whole_file::printable_lines(&chart);
             if whole_file::leads_to(path) {
-                return Ok(chart);
+                return Ok(chart.into_owned());
             }
             write("svg", path, &chart)?;
         }
@@ -125,9 +129,43 @@ impl SeriesArgs {
     }
 }
 
+/// Whether a file is named as one of this kind, such as `.csv`, in large or small letters.
+pub(crate) fn has_ending(name: &str, ending: &str) -> bool {
+    let start = name.len().checked_sub(ending.len());
+    start.and_then(|start| name.get(start..)).is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
+/// The content of the file that an option names.
+pub(crate) fn read_bytes(option: &'static str, path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|source| Failure::Read { option, path: path.display().to_string(), source })
+}
+
 /// The text of the file that an option names.
 pub(crate) fn read(option: &'static str, path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|source| Failure::Read { option, path: path.display().to_string(), source })
+    whole_file::text(read_bytes(option, path)?).map_err(|wrong| {
+        let source = Error::in_text(&wrong.before, Some(wrong.before.len()), wrong.to_string());
+        Failure::Text { path: path.display().to_string(), source }
+    })
+}
+
+/// What a text in JSON describes.
+pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
+    serde_json::from_str(text).map_err(|error| {
+        let (line, column, message) = (error.line(), error.column(), error.to_string());
+        let message = message.trim_end_matches(&format!(" at line {line} column {column}"));
+        let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+        // The column is of bytes, and may be that of the second one of a letter.
+        let at = (before + column.saturating_sub(1)).min(text.len());
+        let at = (0..=at).rev().find(|at| text.is_char_boundary(*at));
+        Error::in_text(text, at, in_words(message))
+    })
+}
+
+/// What a text in TOML describes.
+pub(crate) fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
+    toml::from_str(text).map_err(|error: toml::de::Error| {
+        Error::in_text(text, error.span().map(|span| span.start), in_words(error.message()))
+    })
 }
 
 /// Writes the file that an option names.
@@ -168,7 +206,8 @@ pub(crate) fn input(command: &Command, given: &ArgMatches) -> Input {
     input
 }
 
-/// A number where the option is one, else the text as it was given. A flag that was not given is no input.
+/// An option as it was typed: a number, however it is written, or the text of a quantity with its unit and of anything else. A
+/// flag that was not given is no input.
 fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     fn typed<T: Clone + Send + Sync + 'static>(name: &str, given: &ArgMatches) -> Option<T> {
         given.try_get_one::<T>(name).ok()?.cloned()
@@ -176,23 +215,31 @@ fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     if let Ok(Some(flag)) = given.try_get_one::<bool>(name) {
         return flag.then(|| true.into());
     }
-    let texts = || Some(given.try_get_raw(name).ok()??.map(|text| text.to_string_lossy().into_owned()));
+    let mut texts = given.try_get_raw(name).ok()??.map(|text| text.to_string_lossy().into_owned());
     if name == "parts" {
-        return Some(texts()?.map(Value::from).collect());
+        return Some(texts.map(Value::from).collect());
     }
-    let number = typed::<f64>(name, given).or_else(|| typed::<Given>(name, given).map(Given::si)).map(Value::from);
+    let text = texts.next()?;
+    let quantity = typed::<f64>(name, given).or_else(|| typed::<Given>(name, given).map(Given::si));
     let small = || typed::<u32>(name, given).map(u64::from).or_else(|| Some(typed::<usize>(name, given)? as u64));
     let whole = || typed::<u64>(name, given).or_else(small).map(whole);
-    let text = || texts()?.next().map(|text| list(name, &text).map_or_else(|| text.clone().into(), Value::from));
-    number.or_else(whole).or_else(text)
+    let number = quantity.map(|number| as_typed(&text, number)).or_else(whole);
+    Some(number.or_else(|| list(name, &text)).unwrap_or_else(|| text.into()))
 }
 
-/// The numbers of an option that is a list of them, in SI units.
-fn list(name: &str, text: &str) -> Option<Vec<f64>> {
+/// A number, or the `text` that it was read from if that has a unit. A percentage is a number as well.
+fn as_typed(text: &str, number: f64) -> Value {
+    let text = text.trim();
+    let is_number = text.parse::<f64>().is_ok() || text.ends_with('%');
+    if is_number { number.into() } else { text.into() }
+}
+
+/// An option that is a list of numbers.
+fn list(name: &str, text: &str) -> Option<Value> {
     let field = Field::named(name).ok().filter(|of| matches!(of.info().holds, Holds::List(_) | Holds::Several(_)))?;
     let mut thrown = Thrown::default();
     thrown.set(field, text).ok()?;
-    Some(thrown.numbers(field).iter().map(|given| given.si()).collect())
+    Some(text.split(',').zip(thrown.numbers(field)).map(|(text, number)| as_typed(text, number.si())).collect())
 }
 
 /// An answer, which has fields, as JSON.
@@ -256,6 +303,8 @@ pub(crate) fn counter(things: &'static str) -> ProgressBar {
 
 /// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let printable = |row: &Vec<String>| row.iter().map(|cell| whole_file::printable(cell).into_owned()).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(printable).collect();
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..columns).map(width).collect();

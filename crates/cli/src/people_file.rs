@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use csv::StringRecord;
 use dynamics::quantity::read_count;
 use sampling::{NextStart, SameSide};
 use toss::InputError;
+use whole_file::{Row, Table, TableError};
 
 use crate::failure::Failure;
 use crate::output;
@@ -20,84 +20,59 @@ pub(crate) struct Named {
 /// The people in a CSV file, in order of their first rows. It has the columns `same` and `tosses`, or `start` and `lands` with
 /// flips as letters, and then may have `rule`. It may have `person`: the rows of one name are added up. Other columns and rows without any text are passed over.
 pub(crate) fn read(path: &Path) -> Result<Vec<Named>, Failure> {
-    let text = output::read("counts", path)?;
-    people(&text).map_err(|(line, source)| Failure::Row { path: path.display().to_string(), line, source })
+    let bytes = output::read_bytes("counts", path)?;
+    let path = || path.display().to_string();
+    people(&bytes).map_err(|wrong| match wrong {
+        Wrong::Table(error) => Failure::table(&path(), error),
+        Wrong::Cell { line, column, source } => Failure::Row { path: path(), line, column, source },
+    })
 }
 
 /// The columns that a file needs.
 const COLUMNS: &str = "the columns same and tosses, or start and lands, in the heading";
 
-/// What is wrong, and in which line of the file.
-type Wrong = (u64, InputError);
+/// What is wrong with a file.
+#[derive(Debug)]
+enum Wrong {
+    Table(TableError),
+    Cell { line: u64, column: usize, source: InputError },
+}
 
-fn people(text: &str) -> Result<Vec<Named>, Wrong> {
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
-    let mut rows =
-        reader.records().map(|record| Row::new(text, record)).filter(|row| !matches!(row, Ok(row) if row.is_blank()));
+impl From<TableError> for Wrong {
+    fn from(error: TableError) -> Self {
+        Self::Table(error)
+    }
+}
+
+fn people(text: &[u8]) -> Result<Vec<Named>, Wrong> {
+    let mut table = Table::new(text)?;
     let missing = |field, expected| InputError::Missing { field, expected };
-    let heading = rows.next().ok_or((1, missing("counts", COLUMNS)))??;
-    let columns = Columns::new(&heading).map_err(|source| (heading.line, source))?;
+    let heading = table.heading().line();
+    let in_heading = |source: InputError| Wrong::Cell { line: heading, column: 1, source };
+    if table.heading().is_blank() {
+        return Err(in_heading(missing("counts", COLUMNS)));
+    }
+    let columns = Columns::new(table.heading()).map_err(in_heading)?;
     let mut people: Vec<Named> = Vec::new();
-    for (number, row) in (1_u64..).zip(rows) {
-        let row = row?;
-        let Named { name, counts } = columns.person(&row, number).map_err(|source| (row.line, source))?;
+    let mut number = 0;
+    while let Some(row) = table.row()? {
+        number += 1;
+        let at = |source: InputError| Wrong::Cell { line: row.line(), column: columns.of(source.field()), source };
+        let Named { name, counts } = columns.person(row, number).map_err(at)?;
         match people.iter_mut().find(|person| person.name == name) {
             None => people.push(Named { name, counts }),
-            Some(known) => {
-                known.counts = SameSide::sum([known.counts, counts]).map_err(|source| (row.line, source))?;
-            }
+            Some(known) => known.counts = SameSide::sum([known.counts, counts]).map_err(at)?,
         }
     }
     let is_present = people.iter().any(|person| person.counts.tosses() > 0);
     let nobody = missing("counts", "a person with a toss in a row below the heading");
-    if is_present { Ok(people) } else { Err((heading.line, nobody)) }
+    if is_present { Ok(people) } else { Err(in_heading(nobody)) }
 }
 
-/// A row of the table.
-struct Row {
-    cells: StringRecord,
-    /// The line of its first character, from 1.
-    line: u64,
-}
-
-impl Row {
-    fn new(text: &str, record: Result<StringRecord, csv::Error>) -> Result<Self, Wrong> {
-        match record {
-            Ok(cells) => Ok(Self { line: line(text, cells.position()), cells }),
-            Err(error) => {
-                let source =
-                    InputError::Malformed { field: "counts", value: error.to_string(), expected: "a table of CSV" };
-                Err((line(text, error.position()), source))
-            }
-        }
-    }
-
-    fn is_blank(&self) -> bool {
-        self.cells.iter().all(str::is_empty)
-    }
-}
-
-/// The number of the line at a position, as an editor counts. A position is where the row before ends, so that the ends of
-/// empty lines may follow.
-fn line(text: &str, position: Option<&csv::Position>) -> u64 {
-    let byte = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
-    let bytes = text.as_bytes();
-    let blank = bytes.iter().skip(byte).take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
-    let before = &bytes[..(byte + blank).min(bytes.len())];
-    let ends = (0..before.len()).filter(|at| match before[*at] {
-        b'\n' => true,
-        b'\r' => before.get(at + 1) != Some(&b'\n'),
-        _ => false,
-    });
-    1 + ends.count() as u64
-}
-
-/// Where the columns are, and how many there are.
+/// Where the columns are.
 struct Columns {
     person: Option<usize>,
     flips: Flips,
-    number: usize,
 }
 
 /// The columns with the flips.
@@ -109,7 +84,7 @@ enum Flips {
 impl Columns {
     fn new(heading: &Row) -> Result<Self, InputError> {
         let place = |field: &'static str| {
-            let mut found = (0..).zip(&heading.cells).filter(|(_, name)| name.eq_ignore_ascii_case(field));
+            let mut found = (0..).zip(heading.cells()).filter(|(_, name)| name.eq_ignore_ascii_case(field));
             match (found.next(), found.next()) {
                 (Some((first, _)), Some((second, _))) => Err(InputError::Malformed {
                     field,
@@ -125,27 +100,37 @@ impl Columns {
         } else {
             Flips::Counts { same: needed("same")?, tosses: needed("tosses")? }
         };
-        Ok(Self { flips, person: place("person")?, number: heading.cells.len() })
+        Ok(Self { flips, person: place("person")? })
+    }
+
+    /// The column, from 1, of the cell with this field; 1 for what is in no single column.
+    fn of(&self, field: &str) -> usize {
+        let place = match (field, &self.flips) {
+            ("person", _) => self.person,
+            ("same", Flips::Counts { same: place, .. })
+            | ("tosses", Flips::Counts { tosses: place, .. })
+            | ("start", Flips::Letters { start: place, .. })
+            | ("lands", Flips::Letters { lands: place, .. }) => Some(*place),
+            ("rule", Flips::Letters { rule, .. }) => *rule,
+            _ => None,
+        };
+        place.map_or(1, |place| place + 1)
     }
 
     /// The person of a row, who is called by its `number` if there are no names.
     fn person(&self, row: &Row, number: u64) -> Result<Named, InputError> {
-        if row.cells.len() != self.number {
-            let value = format!("{} cells below {} headings", row.cells.len(), self.number);
-            return Err(InputError::Malformed { field: "counts", value, expected: "a table of CSV" });
-        }
         let count = |field: &'static str, place: usize| {
-            let cell = &row.cells[place];
+            let cell = row.cell(place);
             read_count(cell).ok_or_else(|| InputError::unreadable(field, cell, "a whole number, such as 1000"))
         };
         let counts = match self.flips {
             Flips::Counts { same, tosses } => SameSide::new(count("same", same)?, count("tosses", tosses)?)?,
             Flips::Letters { start, lands, rule } => {
-                let rule = rule.map(|place| &row.cells[place]).filter(|text| !text.is_empty());
-                SameSide::of_sequence(&row.cells[start], &row.cells[lands], rule.map(NextStart::read).transpose()?)?
+                let rule = rule.map(|place| row.cell(place)).filter(|text| !text.is_empty());
+                SameSide::of_sequence(row.cell(start), row.cell(lands), rule.map(NextStart::read).transpose()?)?
             }
         };
-        let name = self.person.map_or_else(|| number.to_string(), |place| row.cells[place].to_owned());
+        let name = self.person.map_or_else(|| number.to_string(), |place| row.cell(place).to_owned());
         if name.is_empty() {
             return Err(InputError::Missing { field: "person", expected: "a name in each row" });
         }
@@ -159,7 +144,7 @@ mod tests {
 
     fn counts(text: &str) -> Vec<(String, u64, u64)> {
         let of = |Named { name, counts }| (name, counts.same(), counts.tosses());
-        people(text).unwrap_or_else(|wrong| panic!("{wrong:?}")).into_iter().map(of).collect()
+        people(text.as_bytes()).unwrap_or_else(|wrong| panic!("{wrong:?}")).into_iter().map(of).collect()
     }
 
     #[test]
@@ -185,29 +170,32 @@ mod tests {
     #[test]
     fn mistakes_are_found_in_the_line_that_an_editor_shows() {
         for end in ["\n", "\r\n", "\r"] {
-            for (text, line, field) in [
-                ("same,tosses|3,4|||5,4|", 5, "same"),
-                ("||same,tosses|  |3,4|,|5,4", 7, "same"),
-                ("\u{feff}same,tosses|5,4|", 2, "same"),
-                ("person,same,tosses|A,1,2|\"B|b\",1,2|C,x,4|", 5, "same"),
-                ("same,tosses||1,2,3|", 3, "counts"),
-                ("same,tosses|1|", 2, "counts"),
-                ("person,same,tosses|A,1,2||,1,2|", 4, "person"),
-                ("person,same,tosses|A,1,18446744073709551615|A,1,1|", 3, "tosses"),
-                ("|same,flips|1,2|", 2, "tosses"),
-                ("same,tosses,Same|1,2,1|", 1, "same"),
-                ("person,same,tosses,person|A,1,2,B|", 1, "person"),
-                ("start,lands,rule|H,HTH,last||H,HTX,last|", 4, "lands"),
-                ("start,lands|H,H||H,HT|", 4, "rule"),
-                ("start,lands,rule|H,HT,always|", 2, "rule"),
-                ("start,lands|HT,H|", 2, "start"),
-                ("lands,rule|HT,last|", 1, "start"),
-                ("same,tosses|0,0||0,0|", 1, "counts"),
-                ("same,tosses|", 1, "counts"),
-                ("", 1, "counts"),
+            for (text, line, column, field) in [
+                ("same,tosses|3,4|||5,4|", 5, 1, "same"),
+                ("||same,tosses|  |3,4|,|5,4", 7, 1, "same"),
+                ("\u{feff}tosses,same|4,5|", 2, 2, "same"),
+                ("person;same;tosses|A;1;2|\"B|b\";1;2|C;x;4|", 5, 2, "same"),
+                ("same,tosses||1,2,3|", 3, 1, "3 cells, but the heading has 2"),
+                ("same,tosses|1|", 2, 1, "1 cell, but the heading has 2"),
+                ("person,same,tosses|A,1,2||,1,2|", 4, 1, "person"),
+                ("person,same,tosses|A,1,18446744073709551615|A,1,1|", 3, 3, "tosses"),
+                ("|same,flips|1,2|", 2, 1, "tosses"),
+                ("same,tosses,Same|1,2,1|", 1, 1, "same"),
+                ("person,same,tosses,person|A,1,2,B|", 1, 1, "person"),
+                ("start,lands,rule|H,HTH,last||H,HTX,last|", 4, 2, "lands"),
+                ("start,lands|H,H||H,HT|", 4, 1, "rule"),
+                ("start,lands,rule|H,HT,always|", 2, 3, "rule"),
+                ("start,lands|HT,H|", 2, 1, "start"),
+                ("lands,rule|HT,last|", 1, 1, "start"),
+                ("same,tosses|0,0||0,0|", 1, 1, "counts"),
+                ("same,tosses|", 1, 1, "counts"),
+                ("", 1, 1, "counts"),
             ] {
-                let wrong = people(&text.replace('|', end)).err().map(|(line, source)| (line, source.field()));
-                assert_eq!(wrong, Some((line, field)), "{text}");
+                let (of, in_it, what) = match people(text.replace('|', end).as_bytes()).err().expect(text) {
+                    Wrong::Table(TableError { line, column, message }) => (line, column, message),
+                    Wrong::Cell { line, column, source } => (line, column, source.field().to_owned()),
+                };
+                assert_eq!((of, in_it, what.as_str()), (line, column, field), "{text}");
             }
         }
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::Args;
 use dynamics::thrown::Field;
 use indicatif::ProgressBar;
+use rayon::ThreadPoolBuilder;
 use sampling::enclosure::usual_accuracy;
 use sampling::{
     AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Scrambled, Space, named_space,
@@ -143,7 +144,7 @@ impl SpaceArgs {
 /// The space with this name or in this file. A coin or body that is given replaces that of the space.
 pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>) -> Result<Space, Failure> {
     let body = coin.given_body()?;
-    let space = if name.ends_with(".toml") {
+    let space = if output::has_ending(name, ".toml") {
         let text = output::read("space", Path::new(name))?;
         let described = DescribedSpace::from_toml(&text);
         described.map_err(|source| Failure::Text { path: name.to_owned(), source })?.space
@@ -281,12 +282,11 @@ impl ThreadArgs {
         question: impl FnOnce(&Sampler<'_>) -> Result<T, Error> + Send,
     ) -> Result<T, Failure> {
         require_few(&sampler, number)?;
-        let pool = self.pool()?;
         let bar = progress_bar(number, things);
         let progress = |more| bar.inc(more);
-        let answer = pool.install(|| question(&sampler.on_progress(&progress)));
+        let answer = self.run(|| question(&sampler.on_progress(&progress)));
         bar.finish_and_clear();
-        Ok(answer?)
+        Ok(answer??)
     }
 
     /// Runs `job` on these threads, with a counter of things whose number is not known before.
@@ -303,13 +303,21 @@ impl ThreadArgs {
 
     /// Runs `job` on these threads.
     pub(crate) fn run<T: Send>(&self, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-        Ok(self.pool()?.install(job))
+        let number = self.threads.unwrap_or_else(one_per_core);
+        let is_of_a_pool = rayon::current_thread_index().is_some();
+        if number == 1 && is_of_a_pool && rayon::current_num_threads() == 1 {
+            return Ok(job());
+        }
+        let builder = ThreadPoolBuilder::new().num_threads(number);
+        // One thread is the one that is there.
+        let builder = if number == 1 && !is_of_a_pool { builder.use_current_thread() } else { builder };
+        let pool = builder.build().map_err(|source| Failure::Threads { number, source })?;
+        Ok(pool.install(job))
     }
+}
 
-    fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
-        // 0 means one thread per core.
-        let threads = self.threads.unwrap_or(0);
-        let build = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        build.map_err(|error| Failure::usage("threads", format!("threads = {threads}: {error}")))
-    }
+/// The number of cores, or of threads that the environment asks of rayon.
+fn one_per_core() -> usize {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    asked.filter(|number| *number > 0).unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }

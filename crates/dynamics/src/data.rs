@@ -35,6 +35,11 @@ mod number;
 mod parts;
 #[cfg(feature = "serde")]
 pub(crate) mod settings;
+#[cfg(feature = "serde")]
+mod words;
+
+#[cfg(feature = "serde")]
+pub use words::in_words;
 
 use crate::error::InputError;
 

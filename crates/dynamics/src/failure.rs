@@ -63,12 +63,14 @@ impl Error {
         Self::Launch { index: index as u64, toss: Box::new(*toss), source }
     }
 
-    /// An error at the byte `offset` of `text`, or at its end: there is missed what is missing.
+    /// An error at the byte `offset` of `text`, or at the end of its last line: there is missed what is missing. A line
+    /// ends by a line feed, a carriage return or both, as an editor shows it.
     pub fn in_text(text: &str, offset: Option<usize>, message: String) -> Self {
-        let before = offset.and_then(|offset| text.get(..offset)).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        Self::Text { line, column, message }
+        let before = offset.and_then(|offset| text.get(..offset)).unwrap_or(text.trim_end());
+        let is_within_an_end = text[before.len()..].starts_with('\n');
+        let before = before.strip_suffix('\r').filter(|_| is_within_an_end).unwrap_or(before).replace("\r\n", "\n");
+        let (line, last) = (1..).zip(before.split(['\n', '\r'])).last().unwrap_or((1, ""));
+        Self::Text { line, column: last.chars().count() + 1, message }
     }
 
     /// A short name of the kind of error, for machine-readable output.
@@ -109,6 +111,27 @@ mod tests {
     use std::fmt;
 
     use super::*;
+
+    #[test]
+    fn places_in_a_text_are_those_that_an_editor_shows() {
+        for end in ["\n", "\r\n", "\r"] {
+            for (text, at, line, column) in [
+                ("ab|cd", Some("c"), 2, 1),
+                ("ab||é d|", Some("d"), 3, 3),
+                ("ab|cd", Some("|"), 1, 3),
+                ("ab|cd||", None, 2, 3),
+                ("", None, 1, 1),
+            ] {
+                let [text, at] = [Some(text), at].map(|text| text.map(|text| text.replace('|', end)));
+                let text = text.unwrap();
+                let offset = at.map(|at| text.find(&at).unwrap() + usize::from(at == "\r\n"));
+                let Error::Text { line: of, column: in_it, .. } = Error::in_text(&text, offset, String::new()) else {
+                    panic!("{text:?}")
+                };
+                assert_eq!((of, in_it), (line, column), "{text:?}");
+            }
+        }
+    }
 
     #[test]
     fn the_error_of_downstream_code_has_a_kind_a_field_and_a_source() {

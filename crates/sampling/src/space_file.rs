@@ -16,6 +16,7 @@
 
 use std::ops::Range;
 
+use dynamics::data::in_words;
 use dynamics::error::find_named;
 use dynamics::{Body, Dimension, Error, InputError};
 use serde::Deserialize;
@@ -59,8 +60,10 @@ impl DescribedSpace {
     /// # Errors
     /// [`Error::Text`] with the line and column of the error.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
+        // The mark of UTF-8 that some editors put before a text.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = toml::from_str(text)
-            .map_err(|error: toml::de::Error| error_at(text, error.span(), error.message().to_owned()))?;
+            .map_err(|error: toml::de::Error| error_at(text, error.span(), in_words(error.message())))?;
         let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
         let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
             .into_iter()
@@ -80,7 +83,7 @@ impl DescribedSpace {
     }
 }
 
-/// An error at the start of `span` in `text`, or at the end of `text` if there is no span because a coordinate is
+/// An error at the start of `span` in `text`, or at the end of its last line if there is no span because a coordinate is
 /// missing.
 fn error_at(text: &str, span: Option<Range<usize>>, message: String) -> Error {
     Error::in_text(text, span.map(|span| span.start), message)
@@ -159,7 +162,9 @@ mod tests {
             (valid.replace("= 3", "=   '-1:5'"), 4, 11, "speed [m/s] = -1.0"),
             (valid.replace("= 3", "= 'normal:4:1'"), 4, 9, "speed [m/s] = -4.3"),
             (valid.replace("rate_x = '0:1'\n", ""), 1, 10, "rate y [rad/s] = 'x'"),
-            (valid.replace("speed = 3\n", ""), 4, 1, "speed [m/s] is missing"),
+            (valid.replace("speed = 3\n", ""), 3, 11, "speed [m/s] is missing"),
+            (valid.replace("rate_x = '0:1'", "\u{feff}rate_x = '1:0'"), 1, 10, "rate x [rad/s] = 0.0"),
+            (format!("{valid}description = 3"), 5, 15, "invalid type: number `3`, expected a string"),
             (valid.replace("= 0", "= [0, 1]"), 3, 10, "expected a number, or a text like"),
             (valid.replace("= 0", "= "), 3, 10, ""),
             (format!("{valid}ω = 3"), 5, 1, ""),

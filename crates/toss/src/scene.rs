@@ -32,7 +32,7 @@ pub struct Scene {
 
 /// What is wanted, and of which toss or space.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(rename_all = "kebab-case", deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(Serialize), serde(rename_all = "kebab-case"))]
 pub enum Want {
     /// Heads or tails.
     Outcome(Toss),
@@ -169,6 +169,86 @@ impl Scene {
 }
 
 #[cfg(feature = "serde")]
+mod data {
+    use std::fmt;
+
+    use dynamics::Toss;
+    use dynamics::error::find_named;
+    use serde::de::{Error, MapAccess, Visitor};
+    use serde::{Deserialize, Deserializer};
+
+    use super::{Want, WantKind};
+
+    /// What is wanted by its name, which is refused where it stands.
+    struct Kind(WantKind);
+
+    impl<'de> Deserialize<'de> for Kind {
+        fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+            let name = String::deserialize(from)?;
+            find_named("want", &name, &WantKind::ALL, |kind| kind.name()).copied().map(Self).map_err(D::Error::custom)
+        }
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Trace {
+        toss: Toss,
+        points: usize,
+    }
+
+    struct Reader;
+
+    impl<'de> Visitor<'de> for Reader {
+        type Value = Want;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("a table with one of outcome, tilt, attitude, trace and probability")
+        }
+
+        fn visit_str<E: Error>(self, name: &str) -> Result<Want, E> {
+            let kind = find_named("want", name, &WantKind::ALL, |kind| kind.name()).map_err(E::custom)?;
+            let of = match kind {
+                WantKind::Probability => "the space of launches, as in [want.probability] rate_x = ..",
+                WantKind::Trace => "the toss, as in [want.trace] points = .. and [want.trace.toss.launch] rate = ..",
+                _ => "the toss, as in [want.tilt] launch = { rate = .., speed = .. }",
+            };
+            Err(E::custom(format!("want = '{name}' is a name alone: below it stands {}", of.replace("tilt", name))))
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Want, A::Error> {
+            let Some(Kind(kind)) = table.next_key()? else {
+                return Err(A::Error::custom(
+                    "want is empty: expected one of outcome, tilt, attitude, trace and probability",
+                ));
+            };
+            let want = match kind {
+                WantKind::Outcome => Want::Outcome(table.next_value()?),
+                WantKind::Tilt => Want::Tilt(table.next_value()?),
+                WantKind::Attitude => Want::Attitude(table.next_value()?),
+                WantKind::Trace => {
+                    let Trace { toss, points } = table.next_value()?;
+                    Want::Trace { toss, points }
+                }
+                WantKind::Probability => Want::Probability(table.next_value()?),
+            };
+            match table.next_key::<String>()? {
+                None => Ok(want),
+                Some(other) => {
+                    let message = format!("want is '{}' and '{other}': expected one of them", kind.name());
+                    Err(A::Error::custom(message))
+                }
+            }
+        }
+    }
+
+    impl<'de> Deserialize<'de> for Want {
+        fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+            from.deserialize_any(Reader)
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -196,7 +276,18 @@ mod tests {
         let launch = "launch = { rate = [1, 1, 2.5], speed = 3.0 }\n";
         for (text, message) in [
             (format!("acuracy = 1\n[want.tilt]\n{launch}"), "unknown field `acuracy`"),
-            (format!("accuracy = 1\n[want.heads]\n{launch}"), "unknown variant `heads`"),
+            (format!("accuracy = 1\n[want.heads]\n{launch}"), "want = 'heads' is unknown; known: outcome, tilt"),
+            ("accuracy = 1\nwant = 'heads'".to_owned(), "want = 'heads' is unknown; known: outcome, tilt"),
+            (
+                "accuracy = 1\nwant = 'outcome'".to_owned(),
+                "want = 'outcome' is a name alone: below it stands the toss, as in [want.outcome]",
+            ),
+            ("accuracy = 1\nwant = {}".to_owned(), "want is empty"),
+            (
+                format!("accuracy = 1\n[want.tilt]\n{launch}[want.outcome]\n{launch}"),
+                "want is 'outcome' and 'tilt': expected one of them",
+            ),
+            ("accuracy = 1\n[want]\ntrace = 5".to_owned(), "invalid type"),
             (
                 "accuracy = 1\n[want.tilt]\nlaunch = { rate = [1, 1, 2], speed = 3, drag = 1 }".to_owned(),
                 "drag is outside",

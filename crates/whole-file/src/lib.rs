@@ -1,5 +1,7 @@
-//! Writes the outputs of a program: files whole or not at all, and standard output without a panic. A program that is
-//! interrupted while it writes a report or a baseline must not leave half a file, which the next run would read.
+//! Reads and writes the texts of a program. Files are written whole or not at all, and standard output without a panic: a
+//! program that is interrupted while it writes a report or a baseline must not leave half a file, which the next run would
+//! read. Texts and [tables](Table) are read as editors and spreadsheets write them, and what others wrote is
+//! [printed](printable()) without what it does to a terminal.
 //!
 //! An output is named by a path. What happens depends on what is there:
 //!
@@ -12,12 +14,18 @@
 //! | a read-only file, a folder | an error |
 
 mod file;
+mod printable;
 mod standard;
+mod table;
+mod text;
 
 use std::io;
 use std::path::Path;
 
+pub use printable::{is_hidden, printable, printable_lines};
 pub use standard::{leads_to, print, report, unless_closed};
+pub use table::{Row, Table, TableError};
+pub use text::{NotText, text};
 
 /// Writes `content` to the output at `path`, as [the table](self) says. A reader that has gone away is not an error.
 ///

@@ -6,6 +6,8 @@ use std::fmt;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
+use crate::printable::printable_lines;
+
 /// Prints `text` on standard output.
 ///
 /// # Errors
@@ -17,7 +19,7 @@ pub fn print(text: &str) -> io::Result<()> {
 
 /// Prints `error: ` and the error on standard error. There is nowhere left to say that this failed; the exit code still tells.
 pub fn report(error: impl fmt::Display) {
-    let _ = writeln!(io::stderr().lock(), "error: {error}");
+    let _ = writeln!(io::stderr().lock(), "error: {}", printable_lines(&error.to_string()));
 }
 
 /// The same result, except that a reader that has gone away is not an error.

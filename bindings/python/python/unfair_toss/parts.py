@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import secrets
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
@@ -176,13 +176,14 @@ class _Run:
 
 
 def _write_whole(path: Path, text: str) -> None:
-    """Writes a file whole, or leaves what was there."""
-    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, delete=False) as file:
-        try:
+    """Writes a file whole, or leaves what was there. Whom the umask lets read a new file may read it."""
+    new = path.with_name(f".{path.name}.{secrets.token_hex(8)}")
+    try:
+        with open(new, "x", encoding="utf-8") as file:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
+        os.replace(new, path)
+    except BaseException:
+        new.unlink(missing_ok=True)
+        raise

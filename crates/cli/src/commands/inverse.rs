@@ -10,7 +10,7 @@ use serde::Serialize;
 use toss::{Coin, InputError};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, row, table};
+use crate::output::{self, FormatArgs, Input, row, table};
 use crate::people_file::{self, Named};
 use crate::quantity;
 use crate::toss_args::CoinArgs;
@@ -80,7 +80,7 @@ impl Args {
 /// The people of `K/N` or of a file.
 fn people(text: &str) -> Result<Vec<Named>, Failure> {
     const EXPECTED: &str = "K/N with whole numbers, such as 178078/350757, or a file that ends in .csv";
-    if text.ends_with(".csv") {
+    if output::has_ending(text, ".csv") {
         return people_file::read(Path::new(text));
     }
     let unreadable = || InputError::unreadable("counts", text, EXPECTED);

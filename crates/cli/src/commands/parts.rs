@@ -1,13 +1,14 @@
 //! Parts of an estimate: the options of `unfair-toss probability` that compute one and write it to a file, and `unfair-toss
 //! merge`, which adds them. Parts can be computed on many machines, or one after the other; a part that is there already is not
 //! computed again, so that a run can be stopped and resumed. A merge refuses what would count a launch twice or leave one out,
-//! and says which file is at fault.
+//! and says which file is at fault; its launches are counted from 1.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use dynamics::quantity::read_count;
 use sampling::{Plan, Sampler, Space, Tally};
+use toss::Error;
 use toss::report::Estimate;
 
 use crate::estimate::text;
@@ -85,7 +86,8 @@ impl ShardArgs {
             output::write("out", path, &(text + "\n"))?;
         }
         let Shard { index, number } = shard;
-        let (file, was) = (path.display(), if there { ", which held it already" } else { "" });
+        let shown = path.display().to_string();
+        let (file, was) = (whole_file::printable(&shown), if there { ", which held it already" } else { "" });
         Ok(format!("part         {index} of {number}: {launches} of {points} launches\nfile         {file}{was}"))
     }
 }
@@ -96,10 +98,14 @@ fn already_there(path: &Path, space: &Space, plan: Plan, range: &Range<u64>) -> 
         return Ok(false);
     }
     let shown = path.display().to_string();
-    match serde_json::from_str::<Tally>(&output::read("out", path)?) {
+    match output::from_json::<Tally>(&output::read("out", path)?) {
         Ok(tally) if (tally.space(), tally.plan(), tally.range()) == (space, plan, range.clone()) => Ok(true),
         Ok(_) => Err(Failure::part(&shown, "it holds another part; remove it to write this one".to_owned())),
-        Err(error) => Err(Failure::part(&shown, format!("it holds no part ({error}); remove it to write one"))),
+        Err(Error::Text { line, column, message }) => {
+            let message = format!("{message}; it holds no part, remove it to write one");
+            Err(Failure::Text { path: shown, source: Error::Text { line, column, message } })
+        }
+        Err(source) => Err(Failure::Text { path: shown, source }),
     }
 }
 
@@ -132,12 +138,12 @@ impl Args {
         let mut parts = parts.into_iter();
         let first = parts.next().ok_or_else(|| Failure::usage("parts", "PART: a part is needed"))?;
         if first.tally.range().start > 0 {
-            return Err(first.refused(format!("launches 0 to {} are missing before it", first.tally.range().start - 1)));
+            return Err(first.refused(format!("launches 1 to {} are missing before it", first.tally.range().start)));
         }
         let whole = parts.try_fold(first, Part::followed_by)?;
         let (done, points) = (whole.tally.range().end, whole.tally.plan().points(whole.tally.space())?);
         if done < points {
-            return Err(whole.refused(format!("launches {done} to {} are missing after it", points - 1)));
+            return Err(whole.refused(format!("launches {} to {points} are missing after it", done + 1)));
         }
         let found = whole.tally.estimate()?;
         let answer = Estimate { found: &found, integrated: None };
@@ -148,8 +154,10 @@ impl Args {
 impl Part {
     fn read(path: &Path) -> Result<Self, Failure> {
         let (text, path) = (output::read("parts", path)?, path.display().to_string());
-        let tally = serde_json::from_str(&text).map_err(|error| Failure::part(&path, error.to_string()))?;
-        Ok(Self { path, tally })
+        match output::from_json(&text) {
+            Ok(tally) => Ok(Self { path, tally }),
+            Err(source) => Err(Failure::Text { path, source }),
+        }
     }
 
     fn refused(&self, message: String) -> Failure {
@@ -160,11 +168,11 @@ impl Part {
     fn followed_by(self, next: Self) -> Result<Self, Failure> {
         let (end, start) = (self.tally.range().end, next.tally.range().start);
         if start > end {
-            return Err(next.refused(format!("launches {end} to {} are missing before it", start - 1)));
+            return Err(next.refused(format!("launches {} to {start} are missing before it", end + 1)));
         }
         if start < end {
-            let shared = end.min(next.tally.range().end).max(start + 1) - 1;
-            return Err(next.refused(format!("launches {start} to {shared} are in {} too", self.path)));
+            let shared = end.min(next.tally.range().end).max(start + 1);
+            return Err(next.refused(format!("launches {} to {shared} are in {} too", start + 1, self.path)));
         }
         Ok(Self { path: next.path, tally: self.tally.merge(next.tally)? })
     }

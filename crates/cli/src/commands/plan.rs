@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toss::planner::{Decision, Integrator, Nanoseconds, WantKind};
 use toss::trace::MOST_POINTS;
-use toss::{Error, QuaternionSolver, Registry, Scene, Want};
+use toss::{QuaternionSolver, Registry, Scene, Want};
 
 use crate::failure::Failure;
 use crate::output::{self, FormatArgs, Input, row, table};
@@ -93,21 +93,10 @@ impl Args {
 }
 
 fn scene_file(path: &Path) -> Result<Scene, Failure> {
-    let text = output::read("scene", path)?;
-    let scene = if path.extension().is_some_and(|extension| extension == "json") {
-        serde_json::from_str(&text).map_err(|error| {
-            let (line, column) = (error.line(), error.column());
-            let message = error.to_string();
-            // The place is said by the error that this becomes.
-            let message = message.trim_end_matches(&format!(" at line {line} column {column}")).to_owned();
-            Error::Text { line, column, message }
-        })
-    } else {
-        toml::from_str(&text).map_err(|error: toml::de::Error| {
-            Error::in_text(&text, error.span().map(|span| span.start), error.message().to_owned())
-        })
-    };
-    scene.map_err(|source| Failure::Text { path: path.display().to_string(), source })
+    let (text, shown) = (output::read("scene", path)?, path.display().to_string());
+    let is_json = output::has_ending(&shown, ".json");
+    let scene = if is_json { output::from_json(&text) } else { output::from_toml(&text) };
+    scene.map_err(|source| Failure::Text { path: shown, source })
 }
 
 fn text(Decision { choice, passed_over }: &Decision) -> String {

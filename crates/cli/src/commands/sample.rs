@@ -1,12 +1,12 @@
 //! `unfair-toss sample` prints single launches of a space and how each lands, as CSV or as lines of JSON, so that other
 //! programs can work with them. With `-` it reads the launches from standard input instead.
 //!
-//! Rows are printed as they are solved, some thousands at a time, so that their number is not limited by the memory. Every
+//! Rows are printed as they are solved, some thousands at a time, so that their number is not limited by the memory. A launch
+//! that was read is answered before the next one is waited for, so that another program can ask one after the other. Every
 //! mistake of a row that was read is reported with its line and column, since such files have many lines.
 
 use std::io::{Read, Write};
 
-use csv::StringRecord;
 use dynamics::Thrown;
 use dynamics::thrown::Field;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use sampling::{Drawn, Method, Plan, Scrambled, Space};
 use serde::Serialize;
 use toss::{Backend, Body, Error, InputError, Registry, Toss, Verdict};
+use whole_file::{Row as Cells, Table, TableError};
 
 use crate::Streams;
 use crate::failure::Failure;
@@ -78,16 +79,30 @@ impl Args {
     }
 
     fn answer_input(&self, backend: &Backend, input: &mut dyn Read, writer: &mut Writer<'_>) -> Result<(), Failure> {
-        let mut launches = read(input, self.space.coin.body()?)?;
-        loop {
-            let chunk: Vec<Result<Given, Failure>> = launches.by_ref().take(CHUNK).collect();
-            if chunk.is_empty() || writer.is_closed() {
-                return Ok(());
+        let body = self.space.coin.body()?;
+        let mut table = Table::new(input).map_err(wrong)?;
+        let columns = columns(table.heading())?;
+        while !writer.is_closed() {
+            let mut chunk = Vec::new();
+            // Up to the last launch that has arrived.
+            let end = loop {
+                match table.row().map_err(wrong).and_then(|row| row.map(|row| launch(row, &columns, body)).transpose())
+                {
+                    Ok(Some(launch)) => chunk.push(launch),
+                    Ok(None) => break Some(Ok(())),
+                    Err(failure) => break Some(Err(failure)),
+                }
+                if chunk.len() == CHUNK || !table.has_row() {
+                    break None;
+                }
+            };
+            answer(backend, &chunk, writer)?;
+            if let Some(end) = end {
+                return end;
             }
-            let valid = chunk.iter().map_while(|row| row.as_ref().ok()).copied().collect::<Vec<Given>>();
-            answer(backend, &valid, writer)?;
-            chunk.into_iter().find_map(Result::err).map_or(Ok(()), Err)?;
+            writer.finish()?;
         }
+        Ok(())
     }
 
     fn answer_space(&self, backend: &Backend, writer: &mut Writer<'_>) -> Result<(), Failure> {
@@ -244,7 +259,7 @@ impl<'a> Writer<'a> {
         self.print(heading)
     }
 
-    /// Ends the output.
+    /// Lets the reader of standard output have all that was written.
     fn finish(&mut self) -> Result<(), Failure> {
         whole_file::unless_closed(self.out.flush()).map_err(Failure::Print)
     }
@@ -283,42 +298,21 @@ const COLUMNS: [Field; 10] = [
 /// The columns of an answer, which may be there and are passed over, so that an output can be read again.
 const ANSWERS: [&str; 4] = ["flight_time", "cos_tilt", "outcome", "certified"];
 
-/// The launches of `body` in a text of CSV.
-///
-/// # Errors
-/// [`Failure::Text`] for a heading that is unknown, missing or there twice. Each launch has its own errors.
-fn read<R: Read>(text: R, body: Body) -> Result<impl Iterator<Item = Result<Given, Failure>>, Failure> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
-    let columns = columns(reader.headers().map_err(|error| unreadable(&error))?)?;
-    Ok(reader.into_records().map(move |record| {
-        let record = record.map_err(|error| unreadable(&error))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        launch(&record, &columns, body).map_err(|error| {
-            let is_at_fault = |column: &Option<Field>| {
-                column.is_some_and(|of| [of.info().name, of.info().label].contains(&error.field()))
-            };
-            at(line, columns.iter().position(is_at_fault).unwrap_or(columns.len() - 1), error.to_string())
-        })
-    }))
-}
-
 /// The field of each heading; `None` for what is passed over.
-fn columns(headings: &StringRecord) -> Result<Vec<Option<Field>>, Failure> {
+fn columns(heading: &Cells) -> Result<Vec<Option<Field>>, Failure> {
+    let at = |column, message| wrong(TableError { line: heading.line(), column: column + 1, message });
     let mut columns = Vec::new();
-    for (column, heading) in headings.iter().enumerate() {
-        let known = Field::named(heading).ok().filter(|field| COLUMNS.contains(field));
-        if known.is_none() && !ANSWERS.contains(&heading) {
+    let names: Vec<String> = heading.cells().map(str::to_lowercase).collect();
+    for (column, (name, written)) in names.iter().zip(heading.cells()).enumerate() {
+        let known = Field::named(name).ok().filter(|field| COLUMNS.contains(field));
+        if known.is_none() && !ANSWERS.contains(&name.as_str()) {
             let known = COLUMNS.map(|field| field.info().name).join(", ");
-            return Err(at(1, column, format!("column '{heading}' is unknown; known: {known}")));
+            return Err(at(column, format!("column '{written}' is unknown; known: {known}")));
         }
-        let is_twice = if known.is_some() {
-            columns.contains(&known)
-        } else {
-            headings.iter().take(column).any(|other| other == heading)
-        };
+        let is_twice = if known.is_some() { columns.contains(&known) } else { names[..column].contains(name) };
         if is_twice {
-            let heading = known.map_or(heading, |field| field.info().name);
-            return Err(at(1, column, format!("column '{heading}' is there twice")));
+            let name = known.map_or(name.as_str(), |field| field.info().name);
+            return Err(at(column, format!("column '{name}' is there twice")));
         }
         columns.push(known);
     }
@@ -329,16 +323,27 @@ fn columns(headings: &StringRecord) -> Result<Vec<Option<Field>>, Failure> {
     let missing = rate.iter().find(|field| lacks(field)).map(|field| field.info().name);
     let has_no_time = [Field::Speed, Field::Time].iter().all(lacks);
     match missing.or(has_no_time.then_some("speed or time")) {
-        Some(name) => Err(at(1, columns.len(), format!("column {name} is missing"))),
+        Some(name) => Err(at(columns.len(), format!("column {name} is missing"))),
         None => Ok(columns),
     }
 }
 
-/// The launch in a record. Its numbers are converted to SI units, in which they are printed, so that an output that is read
-/// again has the same answers.
-fn launch(record: &StringRecord, columns: &[Option<Field>], body: Body) -> Result<Given, InputError> {
+/// The launch in a row.
+fn launch(row: &Cells, columns: &[Option<Field>], body: Body) -> Result<Given, Failure> {
+    thrown(row, columns, body).map_err(|error| {
+        let is_at_fault = |column: &Option<Field>| {
+            column.is_some_and(|of| [of.info().name, of.info().label].contains(&error.field()))
+        };
+        let column = 1 + columns.iter().position(is_at_fault).unwrap_or(columns.len() - 1);
+        wrong(TableError { line: row.line(), column, message: error.to_string() })
+    })
+}
+
+/// The same. Its numbers are converted to SI units, in which they are printed, so that an output that is read again has the
+/// same answers.
+fn thrown(row: &Cells, columns: &[Option<Field>], body: Body) -> Result<Given, InputError> {
     let mut thrown = Thrown::default();
-    for (column, cell) in columns.iter().zip(record).filter(|(_, cell)| !cell.is_empty()) {
+    for (column, cell) in columns.iter().zip(row.cells()).filter(|(_, cell)| !cell.is_empty()) {
         column.map_or(Ok(()), |field| thrown.set(field, cell))?;
     }
     let thrown = thrown.in_si();
@@ -352,20 +357,6 @@ fn launch(record: &StringRecord, columns: &[Option<Field>], body: Body) -> Resul
     Ok(Given { row, toss: Toss { body, launch } })
 }
 
-/// The error of a place in the text: a line from 1, and a column of the table from 0.
-fn at(line: u64, column: usize, message: String) -> Failure {
-    let line = usize::try_from(line).unwrap_or(usize::MAX);
-    Failure::Text { path: "standard input".to_owned(), source: Error::Text { line, column: column + 1, message } }
-}
-
-/// The error of a text that is no table.
-fn unreadable(error: &csv::Error) -> Failure {
-    let line = error.position().map_or(1, csv::Position::line);
-    let message = match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!("{len} cells, but the heading has {expected_len}")
-        }
-        _ => error.to_string(),
-    };
-    at(line, 0, message)
+fn wrong(error: TableError) -> Failure {
+    Failure::table("standard input", error)
 }

@@ -48,21 +48,24 @@ fn a_wobble_explains_counts_of_one_hand_and_of_people() {
     assert!(found["people"][2]["cone_angle"].is_null() && found["interval_kind"] == "beta-binomial 95 % of 3 people");
     assert_eq!((&found["people"][1]["person"], &found["absent"]), (&"B".into(), &0.into()));
     assert!(stdout(&run(&people)).contains("assumed      independent flips; long flights from horizontal"));
-    for (text, line, field, words) in [
-        ("same,tosses\n3,4\n5,4\n", 3, "same", "same = 5.0 is outside its valid range: 0 to the number of tosses"),
-        ("same,tosses\n0,0\n", 1, "counts", "a person with a toss in a row"),
-        ("same,tosses\r\n\r\n1,0\r\n", 3, "same", "same = 1.0 is outside its valid range: 0 to the number of tosses"),
-        ("same,tosses,same\n1,4,1\n", 1, "same", "same = 'columns 1 and 3' can't be used: expected one column"),
-        ("same,tosses\n-1,4\n", 2, "same", "same = '-1' can't be used: expected a whole number"),
-        ("same,flips\n1,4\n", 1, "tosses", "tosses is missing: expected the columns same and tosses"),
-        ("same,tosses\n", 1, "counts", "a person with a toss in a row"),
-        ("same,tosses\n1,2,3\n", 2, "counts", "a table of CSV"),
+    for (text, line, column, field, words) in [
+        ("same,tosses\n3,4\n5,4\n", 3, 1, "same", "same = 5.0 is outside its valid range: 0 to the number of tosses"),
+        ("same,tosses\n0,0\n", 1, 1, "counts", "a person with a toss in a row"),
+        ("tosses;same\r\n\r\n0;1\r\n", 3, 2, "same", "same = 1.0 is outside its valid range: 0 to the number of"),
+        ("same,tosses,same\n1,4,1\n", 1, 1, "same", "same = 'columns 1 and 3' can't be used: expected one column"),
+        ("same,tosses\n-1,4\n", 2, 1, "same", "same = '-1' can't be used: expected a whole number"),
+        ("same,flips\n1,4\n", 1, 1, "tosses", "tosses is missing: expected the columns same and tosses"),
+        ("same,tosses\n", 1, 1, "counts", "a person with a toss in a row"),
     ] {
         let command = counted(text);
         let error = json(&command, 2)["error"].clone();
-        assert_eq!((&error["line"], &error["field"]), (&line.into(), &field.into()), "{error}");
+        let found = (&error["line"], &error["column"], &error["field"]);
+        assert_eq!(found, (&line.into(), &column.into(), &field.into()), "{error}");
         let said = stderr(&run(&command));
-        assert!(said.contains(&format!("people.csv, line {line}: ")) && said.contains(words), "{said}");
+        assert!(
+            said.contains(&format!("people.csv, line {line}, column {column}: ")) && said.contains(words),
+            "{said}"
+        );
     }
 }
 

@@ -25,6 +25,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
         "toss",
         &[
             "--rate 1,1,2.5 --speed 3 --gravity 9.8 --drop 0.1 --tilt 0.1 --coin disc",
+            "--turn 38rev/s --wobble 60deg --speed 3 --drop 10cm",
             "--rate 2,2,0.5 --speed 3 --moments 1,1",
             "--rate 1,1,2.5 --time 1 --cylinder 1,1,1 --solver gamma --scheme rk4 --step 1e-3 --formulation vertical",
             "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
@@ -32,12 +33,17 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--coin racket --rate 1,12,3 --speed 3 --margin",
             "--rate 1,1,2.5 --time 1 --solver quaternion --prove",
             "--rate 1,1,2.5 --speed 240cm/s",
+            "--rate 1,1,2.5 --time 500ms --solver quaternion --scheme rk4 --step 1ms",
             "--coin book --rate 1rpm,1deg/s,2rpm --time 1",
         ],
     ),
     (
         "trace",
-        &["--rate 1,1,2.5 --speed 3 --points 3", "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove"],
+        &[
+            "--rate 1,1,2.5 --speed 3 --points 3",
+            "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove",
+            "--rate 1,1,2.5 --time 1 --dt 300ms",
+        ],
     ),
     (
         "probability",
@@ -50,6 +56,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--space tails --method random --points 9 --seed 18446744073709551615",
             "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
+            "--turn 30 --wobble 1 --speed 3 --spread 5% --accuracy 1e-2",
             "--rate-x 9 --rate-y 5 --rate-z 3 --speed 3:5 --method random --points 9 --solver quaternion --scheme rk4 --step 0.1",
         ],
     ),
@@ -64,7 +71,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
     (
         "spread",
         &[
-            "--rate 20,0,5 --speed 3.5 --heads 0.9 --points 512",
+            "--rate 20,0,5 --speed 3.5 --heads 90% --points 512",
             "--rate 0.3,0,0.1 --speed 3 --heads 0.9 --points 512",
             "--rate 2,2,0.5 --speed 3 --heads 0.9",
             "--rate 1,1,9 --speed 3 --heads 0.9 --points 512",
@@ -77,7 +84,13 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 40 --rate-y 5 --rate-z 9:20:3 --speed 3:5:3 --solver quaternion --scheme rk4 --step 0.1 --steps 3",
         ],
     ),
-    ("errors", &["--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5"]),
+    (
+        "errors",
+        &[
+            "--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5",
+            "--space paper-fig4 --up-to 8 --replicates 1 --reference 50%",
+        ],
+    ),
     (
         "map",
         &[
@@ -86,7 +99,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("intervals", &["--rate 1,1,2 --speed 2:3", "--rate 2,2,0.5 --speed 3:5"]),
-    ("inverse", &["--probability 0.7", "--counts 50/100", "--counts 9/100", "--counts PEOPLE"]),
+    ("inverse", &["--probability 0.7", "--probability 70%", "--counts 50/100", "--counts 9/100", "--counts PEOPLE"]),
     ("limit", &["--points 9", "--points 2 --solver quaternion --scheme rk4 --step 0.01"]),
     (
         "plan",
@@ -152,6 +165,15 @@ fn input_is_repeated_as_it_was_given() {
         json("probability --rate-x 0:1 --rate-y x --rate-z 5 --speed 3 --method random --points 9 --threads 2", 0);
     assert_eq!((&space["input"]["rate_x"], &space["input"]["points"]), (&"0:1".into(), &9.into()));
     assert_eq!(space["input"]["threads"], Value::Null);
+    let typed =
+        json("toss --turn 38rev/s --wobble 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
+    let expected = r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"solver":"exact","speed":"2.4m/s","tilt":"15deg","turn":"38rev/s","wobble":1.0}"#;
+    assert_eq!(typed.to_string(), expected);
+    let typed =
+        json("probability --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"]
+            .clone();
+    let expected = r#"{"accuracy":0.01,"command":"probability","solver":"exact","speed":"2.4m/s","spread":0.05,"turn":"38rev/s","wobble":"60deg"}"#;
+    assert_eq!(typed.to_string(), expected);
 }
 
 #[test]

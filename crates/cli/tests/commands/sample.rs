@@ -1,7 +1,9 @@
 //! Single launches, drawn from a space or read from standard input.
 
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Output, Stdio};
+use std::sync::mpsc;
+use std::time::Duration;
 
 use crate::common::{json, run, stderr, stdout};
 use serde_json::Value;
@@ -10,18 +12,23 @@ const DOCUMENT: &str = include_str!("../../../../docs/json.md");
 
 const HEADING: &str = "wx,wy,wz,speed,time,gravity,drop,tilt,flight_time,cos_tilt,outcome,certified";
 
-/// The program with `input` on its standard input.
-fn fed(arguments: &str, input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
+/// The program with its streams piped.
+fn piped(arguments: &str) -> std::process::Child {
+    Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
         .args(arguments.split_whitespace())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .expect("the program starts");
-    let (mut stdin, input) = (child.stdin.take().expect("it is piped"), input.to_owned());
+        .expect("the program starts")
+}
+
+/// The program with `input` on its standard input.
+fn fed(arguments: &str, input: impl AsRef<[u8]>) -> Output {
+    let mut child = piped(arguments);
+    let (mut stdin, input) = (child.stdin.take().expect("it is piped"), input.as_ref().to_owned());
     // On a thread of its own, because the program writes while it reads. If it refuses its options it reads nothing.
-    let feeder = std::thread::spawn(move || _ = stdin.write_all(input.as_bytes()));
+    let feeder = std::thread::spawn(move || _ = stdin.write_all(&input));
     let output = child.wait_with_output().expect("it ends");
     feeder.join().expect("it ends");
     output
@@ -143,6 +150,55 @@ fn mistakes_in_the_input_are_found_by_line_and_column() {
     }
 }
 
+/// Another program asks launch by launch, and waits for each answer before it writes the next.
+#[test]
+fn a_launch_is_answered_before_the_next_one_arrives() {
+    let mut child = piped("sample -");
+    let mut to = child.stdin.take().unwrap();
+    let (send, lines) = mpsc::channel();
+    let stdout = BufReader::new(child.stdout.take().unwrap());
+    std::thread::spawn(move || stdout.lines().map_while(Result::ok).try_for_each(|line| send.send(line)));
+    let mut answer = |text: &str, rows: usize| {
+        to.write_all(text.as_bytes()).unwrap();
+        let next = |_| lines.recv_timeout(Duration::from_secs(60)).unwrap_or_else(|_| panic!("no answer to {text:?}"));
+        (0..rows).map(next).collect::<Vec<String>>()
+    };
+    assert_eq!(answer("wx,wy,wz,speed\r\n1,1,2.5,3\r\n", 2)[0], HEADING);
+    assert!(answer("2,1,2.5,3\r\n", 1)[0].starts_with("2.0,1.0,2.5,3.0,"));
+    assert!(answer("3,1,2.5,3\r\n\r\n,,,\r\n4,1,", 1)[0].starts_with("3.0,"));
+    assert!(answer("2.5,3\n5,1,2.5,3\n", 2)[1].starts_with("5.0,"));
+    assert!(answer("6,1,2.5,3\nx,1,2.5,3\n", 1)[0].starts_with("6.0,"));
+    // The mistake ends it although standard input is still open.
+    let mut said = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+    assert!(said.contains("standard input, line 10, column 1: rate x [rad/s] = 'x'"), "{said}");
+    assert_eq!(child.wait().unwrap().code(), Some(2));
+}
+
+#[test]
+fn tables_are_read_as_spreadsheets_write_them() {
+    let expected = stdout(&fed("sample -", "wx,wy,wz,speed\n1,1,2.5,3\n"));
+    for text in [
+        "\u{feff}wx;wy;wz;speed\r\n1;1;2.5;3\r\n",
+        "wx\twy\twz\tspeed\n1\t1\t2.5\t3\n",
+        "WX, Wy ,\"wz\",Speed\r1,1, \"2.5\" ,3\r,,,\r",
+    ] {
+        assert_eq!(stdout(&fed("sample -", text)), expected, "{text:?}");
+    }
+    for (text, words) in [
+        (&b"wx,wy\xff\n"[..], "standard input, line 1, column 2: the text is not UTF-8\n"),
+        (
+            b"\xff\xfew\0x\0",
+            "standard input, line 1, column 1: the text is not UTF-8 but looks like UTF-16; save it as UTF-8\n",
+        ),
+        (b"wx,wy,wz,speed\n1,1,1,\"1\n", "standard input, line 2, column 1: a quotation mark is not closed\n"),
+        (b"wx;wy;wz;speed\n1;1;2,5;3\n", "line 2, column 3: rate z [rad/s] = '2,5' can't be used"),
+    ] {
+        let output = fed("sample -", text);
+        assert!(output.status.code() == Some(2) && stderr(&output).contains(words), "{}", stderr(&output));
+    }
+}
+
 #[test]
 fn options_that_do_not_fit_are_refused() {
     let failing =
@@ -153,7 +209,7 @@ fn options_that_do_not_fit_are_refused() {
     text += "1,1,1e17,3\n1,1,2.5,3\n";
     let output = fed("sample -", &text);
     assert_eq!((output.status.code(), stdout(&output).lines().count()), (Some(1), 20_002));
-    assert!(stderr(&output).contains("launch 20001 (rate 1.0, 1.0, 1e17 rad/s"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("launch 20002 (rate 1.0, 1.0, 1e17 rad/s"), "{}", stderr(&output));
 }
 
 #[test]

@@ -118,11 +118,11 @@ fn gaps_overlaps_and_parts_of_other_plans_are_refused_with_the_name_of_the_file(
     let other = part(others.path(), &format!("{options} --seed 2"), 2, 3);
     let half = part(others.path(), options, 1, 2);
     for (parts, [file, words]) in [
-        (vec![one, three], [three, "launches 333 to 665 are missing"]),
-        (vec![two, three], [two, "launches 0 to 332 are missing"]),
-        (vec![two, one], [two, "launches 666 to 999 are missing"]),
-        (vec![one, one, two, three], [one, "launches 0 to 332 are in"]),
-        (vec![&half, two, three], [two, "launches 333 to 499 are in"]),
+        (vec![one, three], [three, "launches 334 to 666 are missing"]),
+        (vec![two, three], [two, "launches 1 to 333 are missing"]),
+        (vec![two, one], [two, "launches 667 to 1000 are missing"]),
+        (vec![one, one, two, three], [one, "launches 1 to 333 are in"]),
+        (vec![&half, two, three], [two, "launches 334 to 500 are in"]),
         (vec![one, &other, three], [&other, "another plan"]),
     ] {
         let message = refusal(&format!("merge {}", parts.join(" ")));

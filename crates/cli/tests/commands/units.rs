@@ -1,11 +1,11 @@
 //! Quantities may be typed with a unit, and a toss may be described by what can be seen of it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::common::{assert_near, json, run, stderr};
 use serde_json::json as value;
 
-/// The input of a toss as its answer repeats it: in SI units.
+/// The input of a toss as its answer repeats it: with the units that were typed.
 fn input(options: &str) -> serde_json::Value {
     json(&format!("toss {options}"), 0)["input"].clone()
 }
@@ -15,12 +15,15 @@ fn a_toss_is_the_same_in_any_units() {
     let with_units = "--cylinder 5.67g,12.13mm,1.75mm --rate 10rev/s,0,-300rpm --speed 240cm/s --gravity 981cm/s² --drop 50cm \
                       --tilt 15deg";
     let found = input(with_units);
-    assert_eq!(found["cylinder"], value!([0.005_67, 0.012_13, 0.001_75]));
-    assert_eq!(found["rate"], value!([10.0 * TAU, 0.0, -10.0 * PI]));
-    for (name, expected) in [("speed", 2.4), ("gravity", 9.81), ("drop", 0.5), ("tilt", 0.261_799_387_799_149_46)] {
+    assert_eq!(found["cylinder"], value!(["5.67g", "12.13mm", "1.75mm"]));
+    assert_eq!(found["rate"], value!(["10rev/s", 0.0, "-300rpm"]));
+    for (name, expected) in [("speed", "240cm/s"), ("gravity", "981cm/s²"), ("drop", "50cm"), ("tilt", "15deg")] {
         assert_eq!(found[name], value!(expected), "{name}");
     }
-    assert_eq!(input("--moments 5g·cm²,1e-7kg·m² --rate 1,1,1 --time 500ms")["moments"], value!([5e-7, 1e-7]));
+    let moments = "--moments 5g·cm²,1e-7kg·m² --rate 1,1,1 --time 500ms";
+    assert_eq!(input(moments)["moments"], value!(["5g·cm²", "1e-7kg·m²"]));
+    let coin = json(&format!("toss {moments}"), 0)["coin"].clone();
+    assert_eq!((&coin["i1"], &coin["i3"]), (&value!(5e-7), &value!(1e-7)));
     let si = "--cylinder 0.00567,0.01213,0.00175 --rate 62.83185307179586,0,-31.41592653589793 --speed 2.4 --gravity 9.81 \
               --drop 0.5 --tilt 0.26179938779914946";
     let landing = |options: &str| json(&format!("toss {options}"), 0)["cos_tilt"].clone();
@@ -37,7 +40,7 @@ fn turn_and_wobble_stand_for_the_rate_that_they_give() {
     // cos θ = cos²ψ + sin²ψ cos(ωL T).
     let expected = 0.25 + 0.75 * (TAU * 6.0 / 9.81).cos();
     assert_near(&seen["cos_tilt"], expected, 1e-14);
-    assert_eq!(seen["input"]["turn"], value!(TAU));
+    assert_eq!((&seen["input"]["turn"], &seen["input"]["wobble"]), (&value!("1rev/s"), &value!("60deg")));
     let commands = [
         "trace --points 3 --speed 3",
         "plan --want tilt --accuracy 1e-9 --speed 3",

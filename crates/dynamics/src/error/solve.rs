@@ -68,9 +68,9 @@ pub enum SolveError {
         why: &'static str,
     },
     /// The flight needs more steps than the limit.
-    #[error("more than {limit} steps needed, stopped at t = {time} s")]
+    #[error("more than {limit} steps needed{}", stopped(*time))]
     StepLimit {
-        /// The time at which the integration stopped (s).
+        /// The time at which the integration stopped (s); 0 if it never began.
         time: f64,
         /// The largest number of steps.
         limit: u32,
@@ -103,6 +103,11 @@ pub enum SolveError {
         /// The reason.
         source: Reason,
     },
+}
+
+/// Where a flight stopped, unless it never began.
+fn stopped(time: f64) -> String {
+    if time == 0.0 { String::new() } else { format!(", stopped at t = {time} s") }
 }
 
 /// What a faulty solver did.

@@ -33,7 +33,12 @@ fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 11] {
             "solver 'own' proves nothing: it only estimates",
             None,
         ),
-        (SolveError::StepLimit { time: AT, limit: 7 }, "step_limit", "more than 7 steps", Some(2.5)),
+        (
+            SolveError::StepLimit { time: AT, limit: 7 },
+            "step_limit",
+            "more than 7 steps needed, stopped at t = 0.5 s",
+            Some(2.5),
+        ),
         (SolveError::StepSizeUnderflow { time: AT }, "step_size_underflow", "at t = 0.5 s", Some(2.5)),
         (SolveError::NotFinite { time: AT }, "not_finite", "is not finite at t = 0.5 s", Some(2.5)),
     ]
@@ -56,6 +61,12 @@ fn an_error_has_a_kind_says_what_happened_and_counts_its_time_from_launch() {
         };
         assert_eq!(moved, later, "{error}");
     }
+}
+
+#[test]
+fn a_flight_that_never_began_stopped_nowhere() {
+    let never = SolveError::StepLimit { time: 0.0, limit: 7 };
+    assert_eq!(never.to_string(), "more than 7 steps needed");
 }
 
 #[test]
