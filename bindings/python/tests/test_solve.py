@@ -180,6 +180,37 @@ def test_flights_become_tables_and_pictures(flight):
     matplotlib.pyplot.close()
 
 
+def test_no_line_joins_times_between_which_the_body_turns_by_more_than_a_quarter():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    # A thousand turns, of which each tenth is seen at the same cos θ.
+    spinning = ut.Toss(ut.rate_of_precession(1000 * 2 * np.pi, np.radians(80)), time=1.0)
+    racket = ut.Toss((0.1, 90.0, 0.1), time=1.0, body="racket")
+    for flight, style in [
+        (ut.trace(spinning, 101), "None"),
+        (ut.trace(spinning, 3999), "None"),
+        (ut.trace(spinning, 4003), "-"),
+        (ut.solve(spinning, t_eval=np.linspace(0.0, 1.0, 101)), "None"),
+        (ut.solve(spinning, t_eval=[*np.linspace(0.0, 0.01, 100), 1.0]), "None"),
+        (ut.solve(spinning, t_eval=np.linspace(0.0, 0.01, 101)), "-"),
+        (ut.trace(racket, 50), "None"),
+        (ut.trace(racket, 400), "-"),
+        (ut.trace(ut.Toss((0, 0, 0), time=1.0), 30), "-"),
+    ]:
+        assert flight.plot().lines[0].get_linestyle() == style
+        matplotlib.pyplot.close()
+
+
+def test_the_angles_are_those_of_scipys_upper_case_sequence():
+    from scipy.spatial.transform import Rotation
+
+    flight = ut.trace(TOSS, 7)
+    turned = Rotation.from_euler("ZXZ", flight.angles).as_quat(scalar_first=True)
+    assert np.allclose(np.abs((turned * flight.attitude).sum(axis=1)), 1.0, rtol=0, atol=1e-15)
+    assert "ZXZ" in ut.Trace.__doc__
+
+
 def test_few_times_are_points_and_no_line():
     import matplotlib
 

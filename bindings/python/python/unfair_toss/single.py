@@ -8,7 +8,7 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .labels import combined
-from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work
+from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work, fastest_turn
 
 
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
@@ -80,10 +80,11 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     errors.SolveError
         If the motion of a body that is not symmetric stays too near to its edge to be searched.
     """
-    heads = np.array(_native.intervals(toss, slowest), dtype=np.float64).reshape(-1, 2)
+    lowest = _native.number("slowest", slowest)
+    heads = np.array(_native.intervals(toss, lowest), dtype=np.float64).reshape(-1, 2)
     length = sum((fast - slow for slow, fast in heads.tolist()), 0.0)
     assert toss.speed is not None
-    return Intervals(heads, min(length / (toss.speed - float(slowest)), 1.0))
+    return Intervals(heads, min(length / (toss.speed - lowest), 1.0))
 
 
 def trace(
@@ -96,7 +97,7 @@ def trace(
     toss : Toss
         The toss.
     points : int, optional
-        Number of times, from 2 to 1000000; this or ``dt`` is needed.
+        Number of times, from 2 to 1000000; 101 by default, without ``dt``.
     dt : float, optional
         Step of time in s; the last time is the landing.
     solver : str or Solver
@@ -118,7 +119,7 @@ def trace(
     t, attitude, angles, normal, face, cos_tilt = (
         np.ascontiguousarray(part) for part in np.split(rows, [1, 5, 8, 11, 14], axis=1)
     )
-    return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0])
+    return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0], fastest_turn(toss))
 
 
 def inverse(probability: float, body: str | Body = "paper") -> Inverse:
@@ -141,8 +142,8 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     errors.InputError
         For a probability outside its range, and for a body that is not symmetric.
     """
-    found = _native.inverse(probability, body)
-    return Inverse(float(probability), *found)
+    wanted = _native.number("probability", probability)
+    return Inverse(wanted, *_native.inverse(wanted, body))
 
 
 def rate_of_precession(turn: float, wobble: float, body: str | Body = "paper") -> tuple[float, float, float]:
