@@ -68,7 +68,7 @@ def test_a_column_is_converted_whatever_package_gives_its_unit(of):
             columns += [pandas.Series(columns[0]), np.ma.array(columns[0])]
     for column in columns:
         assert np.allclose(ut.cos_tilt(column, **REST), right, rtol=0, atol=1e-13), column
-        assert ut.count(column, **REST).heads == 1 and ut.outcome(column, **REST).tolist() == [1, -1]
+        assert ut.count(column, **REST).heads == 1 and np.array(ut.outcome(column, **REST)).tolist() == [1, -1]
         assert np.array(ut.attitude(column, **REST)).shape == (2, 4)
     assert math.isclose(ut.cos_tilt(of(600.0, "rpm"), **REST), ut.cos_tilt(20 * math.pi, **REST), abs_tol=1e-13)
     mixed = ut.cos_tilt([of(3600.0, "deg/s"), math.radians(720.0)], **REST)
@@ -89,11 +89,12 @@ def test_every_argument_that_measures_something_is_converted(of):
     flight = ut.solve(TOSS, "euler", scheme="rk4", step=one(10.0, "ms"), dense_output=True)
     assert close(flight.sol(one(100.0, "ms")), flight.sol(0.1)) and flight.work.accepted_steps == 150
     assert len(ut.trace(TOSS, dt=one(500.0, "ms")).t) == 4
-    assert close(ut.intervals(plain, one(50.0, "cm/s")).heads, ut.intervals(plain, 0.5).heads) and len(ut.intervals(plain, 0.5).heads)
+    thrown = ut.Toss((1, 1, 2.5), speed=3)
+    assert close(ut.intervals(thrown, one(50.0, "cm/s")).heads, ut.intervals(thrown, 0.5).heads) and len(ut.intervals(thrown, 0.5).heads)
     assert close(ut.rate_of_precession(one(2280.0, "rpm"), one(81.0, "deg")), ut.rate_of_precession(76 * math.pi, math.radians(81)))
     by_axes = ut.Space(rate_x=of([360.0, 720.0], "deg/s"), rate_y=(one(0.0, "rpm"), one(60.0, "rpm"), 5), rate_z=1, speed=one(250.0, "cm/s"), tilt=one(30.0, "deg"), drop=one(5.0, "cm"))
     space = ut.Space(rate_x=(math.tau, 2 * math.tau), rate_y=(0.0, math.tau, 5), rate_z=1, speed=2.5, tilt=math.radians(30), drop=0.05)
-    found = [ut.probability(of_it, ut.Plan.exact_speed(64)).probability for of_it in (by_axes, space)]
+    found = [ut.probability(of_it, ut.Plan.random(1000)).probability for of_it in (by_axes, space)]
     assert close(*found)
     column = dict(drop=of([10.0, 20.0], "cm"), tilt=of([10.0, 20.0], "deg"))
     assert close(ut.cos_tilt(1, 2, 3, of([250.0, 500.0], "cm/s"), **column), ut.cos_tilt(1, 2, 3, [2.5, 5.0], drop=[0.1, 0.2], tilt=np.radians([10.0, 20.0])))
@@ -207,7 +208,7 @@ def test_a_quantity_may_be_a_text_with_its_unit(ask):
     assert np.allclose(ut.rate_of_precession("38rev/s", "90deg"), ut.rate_of_precession(76 * math.pi, math.pi / 2), rtol=1e-15)
     assert len(ut.trace(TOSS, dt="500ms").t) == 4 and ut.Solver("euler", scheme="rk4", step="10ms").step == 0.01
     assert ut.Space(rate_x=1, rate_y=1, rate_z=1, speed=1, drop="50cm") == ut.Space(rate_x=1, rate_y=1, rate_z=1, speed=1, drop=0.5)
-    assert ut.Body.from_moments(["1g·cm²", "2g·cm²"]) == ut.Body.from_moments([1e-7, 2e-7])
+    assert ut.Body.from_moments(["1g·cm²", "2g·cm²"]).moments == [1e-7, 1e-7, 2e-7]
     for call in (
         lambda: ut.Toss((1, 2, 3), speed="3"),
         lambda: ut.Toss((1, 2, 3), speed="3rad/s"),

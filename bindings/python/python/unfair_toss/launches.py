@@ -163,7 +163,7 @@ class Launches:
             return out, out
         has_unit = getattr(out, "unit", getattr(out, "units", None)) is not None
         if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or has_unit:
-            raise MalformedError("out is no plain array of NumPy", field="out", valid="a numpy.ndarray")
+            raise MalformedError("out is no array of NumPy without a mask and a unit", field="out", valid="a numpy.ndarray")
         if out.shape != shape or out.dtype != dtype:
             found, expected = f"{out.dtype} {out.shape}", f"{np.dtype(dtype)} {shape}"
             raise MalformedError(f"out is {found}, expected is {expected}", field="out", valid=expected)

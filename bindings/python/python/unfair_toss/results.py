@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
@@ -93,11 +94,21 @@ class _Flight:
 
 
 def fastest_turn(toss: Toss) -> float:
-    """A bound of the rate at which the normal of a toss goes round its angular momentum S, in rad/s: S/I1 of a coin, and of
-    any other body S over its smallest moment."""
-    momentum = float(np.linalg.norm(np.array(toss.body.tensor) @ np.array(toss.rate)))
-    smallest = toss.body.tensor[0][0] if toss.body.is_symmetric else min(toss.body.principal_moments)
-    return momentum / smallest if momentum else 0.0
+    """How fast a toss turns at most, in rad/s: the rate S/I1 of the normal of a coin about its angular momentum S; of any
+    other body the larger one of its rate and of S over its middle moment."""
+    tensor, rate = np.array(toss.body.tensor), np.array(toss.rate)
+    momentum = tensor @ rate
+    energy, square = float(rate @ momentum), float(momentum @ momentum)
+    if toss.body.is_symmetric:
+        return float(np.sqrt(square) / tensor[0, 0]) if square else 0.0
+    moments = toss.body.principal_moments
+    fastest = max(float(rate @ rate), square / moments[1] ** 2)
+    # Of all rates with this energy and momentum, the fastest ones have no part along one of the principal axes.
+    for one, two in itertools.combinations(moments, 2):
+        if 0.0 < one < two:
+            parts = (two * energy - square) / (one * (two - one)), (square - one * energy) / (two * (two - one))
+            fastest = max(fastest, sum(parts) if min(parts) >= 0.0 else 0.0)
+    return float(np.sqrt(fastest))
 
 
 class _HoldsArrays:
@@ -239,7 +250,8 @@ class Trace(ShownAsTable, _Flight, _HoldsArrays):
     cos_tilt : ndarray of shape (n,)
         cos θ.
     fastest_turn : float
-        Bound of the rate at which the normal goes round the angular momentum, in rad/s; for coins it is that rate.
+        How fast it turns at most, in rad/s: the rate S/I1 of the normal of a coin about its angular momentum S; of any
+        other body the larger one of its rate and of S over its middle moment.
     """
 
     t: npt.NDArray[np.float64]
