@@ -341,6 +341,8 @@ def test_what_is_not_given_is_what_the_command_line_takes(ask, name):
     plans = [("random", ut.Plan.random()), ("sobol", ut.Plan.sobol()), ("exact-speed", ut.Plan.exact_speed()), ("enclosure", ut.Plan.enclosure()), (None, None)]
     for method, plan in plans:
         expected = ask("probability", *options, *(["--method", method] if method else []))
+        if "no effect" in expected.get("error", {}).get("message", ""):
+            continue  # Points of axes that are typed for this method; a space of Python is for any.
         if "error" in expected:
             with pytest.raises(errors.TossError):
                 ut.probability(space, plan)
