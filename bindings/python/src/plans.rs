@@ -38,7 +38,7 @@ impl Plan {
     /// points : int, optional
     ///     Number of launches; 250000 by default, 65536 for a body that is not symmetric.
     /// seed : int, numpy.random.Generator or numpy.random.SeedSequence
-    ///     Seed of the random numbers; a generator draws one.
+    ///     Seed of the random numbers, 1 by default; a generator draws one.
     #[staticmethod]
     #[pyo3(signature = (points=None, *, seed=SEED))]
     fn random(points: Option<&Bound<'_, PyAny>>, #[pyo3(from_py_with = seed)] seed: u64) -> PyResult<Self> {
@@ -59,7 +59,7 @@ impl Plan {
     /// scrambles : int
     ///     Number of independent scrambles, from which the interval follows.
     /// seed : int, numpy.random.Generator or numpy.random.SeedSequence
-    ///     Seed of the scrambles; a generator draws one.
+    ///     Seed of the scrambles, 1 by default; a generator draws one.
     #[staticmethod]
     #[pyo3(signature = (points=None, *, scrambles=SCRAMBLES, seed=SEED))]
     fn sobol(
@@ -80,7 +80,7 @@ impl Plan {
     /// scrambles : int
     ///     Number of independent scrambles, from which the interval follows.
     /// seed : int, numpy.random.Generator or numpy.random.SeedSequence
-    ///     Seed of the scrambles; a generator draws one.
+    ///     Seed of the scrambles, 1 by default; a generator draws one.
     #[staticmethod]
     #[pyo3(signature = (points=None, *, scrambles=SCRAMBLES, seed=SEED))]
     fn exact_speed(

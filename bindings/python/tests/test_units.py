@@ -170,6 +170,13 @@ def test_arrays_with_labels_name_their_unit(unit):
             ut.count(x.assign_attrs(units=wrong), **REST)
 
 
+def test_counts_that_say_they_have_no_unit_are_counts():
+    people = xarray.DataArray([56, 61, 20], dims="person", attrs={"units": "1"})
+    assert ut.wobble(people, [100, 100, 100]) == ut.wobble(people.values, [100, 100, 100])
+    with pytest.raises(errors.InputError):
+        ut.cos_tilt(xarray.Dataset({"x": people}), **REST)
+
+
 def test_the_times_of_a_flight_are_read_back_from_xarray():
     flight = ut.trace(TOSS, 5).to_xarray()
     assert (ut.solve(TOSS, t_eval=flight["t"]).t == flight["t"].values).all()

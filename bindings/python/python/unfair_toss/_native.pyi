@@ -1,5 +1,5 @@
 from collections.abc import Sequence
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, SupportsFloat, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -40,9 +40,10 @@ __version__: str
 
 _Column: TypeAlias = npt.NDArray[np.float64]
 _Columns: TypeAlias = tuple[_Column, ...]
-_Axis: TypeAlias = float | Sequence[float] | npt.NDArray[np.float64] | str
+_Quantity: TypeAlias = SupportsFloat | str
+_Axis: TypeAlias = _Quantity | Sequence[_Quantity] | npt.NDArray[np.float64]
 _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
-_Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+_Vector: TypeAlias = Sequence[_Quantity] | npt.NDArray[np.float64]
 _Seed: TypeAlias = int | np.random.Generator | np.random.SeedSequence
 _Fields: TypeAlias = dict[str, Any]
 """The arguments of the result of the same name in the modules beside this one."""
@@ -52,7 +53,7 @@ class Body:
     @staticmethod
     def named(name: str) -> Body: ...
     @staticmethod
-    def cylinder(mass: float, radius: float, thickness: float) -> Body: ...
+    def cylinder(mass: _Quantity, radius: _Quantity, thickness: _Quantity) -> Body: ...
     @staticmethod
     def from_moments(moments: _Vector) -> Body: ...
     @staticmethod
@@ -78,11 +79,11 @@ class Toss:
         cls,
         rate: _Vector,
         *,
-        speed: float | None = None,
-        time: float | None = None,
-        gravity: float | None = None,
-        drop: float | None = None,
-        tilt: float | None = None,
+        speed: _Quantity | None = None,
+        time: _Quantity | None = None,
+        gravity: _Quantity | None = None,
+        drop: _Quantity | None = None,
+        tilt: _Quantity | None = None,
         attitude: _Quaternion | None = None,
         body: str | Body | None = None,
     ) -> Toss: ...
@@ -109,7 +110,7 @@ class Solver:
         *,
         scheme: str | None = None,
         rtol: float | None = None,
-        step: float | None = None,
+        step: _Quantity | None = None,
         formulation: str | None = None,
     ) -> Solver: ...
     @property
@@ -160,7 +161,7 @@ class Space:
         speed: _Axis,
         gravity: _Axis | None = None,
         tilt: _Axis | None = None,
-        drop: float | None = None,
+        drop: _Quantity | None = None,
         body: str | Body | None = None,
     ) -> Space: ...
     @staticmethod
@@ -179,11 +180,11 @@ class Plan:
     @staticmethod
     def grid() -> Plan: ...
     @staticmethod
-    def random(points: int | None = None, *, seed: _Seed = 1) -> Plan: ...
+    def random(points: int | None = None, *, seed: _Seed = ...) -> Plan: ...
     @staticmethod
-    def sobol(points: int | None = None, *, scrambles: int = ..., seed: _Seed = 1) -> Plan: ...
+    def sobol(points: int | None = None, *, scrambles: int = ..., seed: _Seed = ...) -> Plan: ...
     @staticmethod
-    def exact_speed(points: int | None = None, *, scrambles: int = ..., seed: _Seed = 1) -> Plan: ...
+    def exact_speed(points: int | None = None, *, scrambles: int = ..., seed: _Seed = ...) -> Plan: ...
     @staticmethod
     def enclosure(accuracy: float | None = None) -> Plan: ...
     @property
@@ -228,10 +229,10 @@ def land(toss: Toss, solver: str | Solver) -> _Fields: ...
 def margins(toss: Toss) -> _Fields: ...
 def intervals(toss: Toss, slowest: float) -> list[list[float]]: ...
 def inverse(probability: float, body: str | Body) -> tuple[float, float, float]: ...
-def rate_of_precession(turn: float, wobble: float, body: str | Body) -> tuple[float, float, float]: ...
+def rate_of_precession(turn: _Quantity, wobble: _Quantity, body: str | Body) -> tuple[float, float, float]: ...
 def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body) -> _Fields: ...
 def trace(
-    toss: Toss, points: int | None, dt: float | None, solver: str | Solver
+    toss: Toss, points: int | None, dt: _Quantity | None, solver: str | Solver
 ) -> npt.NDArray[np.float64]: ...
 def solve(
     toss: Toss, times: _Column, solver: str | Solver

@@ -9,6 +9,7 @@ from . import _native
 from ._native import Body, Solver, Toss
 from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work, fastest_turn
+from .units import Quantity
 
 
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
@@ -57,15 +58,15 @@ def margins(toss: Toss) -> Margins:
     return Margins(**_native.margins(toss))
 
 
-def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
+def intervals(toss: Toss, slowest: Quantity = 0.0) -> Intervals:
     """The speeds from ``slowest`` to that of a toss with which it lands heads.
 
     Parameters
     ----------
     toss : Toss
         The toss of any body with the fastest speed.
-    slowest : float
-        The slowest speed in m/s.
+    slowest : float or str
+        The slowest speed in m/s, or as in ``"2m/s"``.
 
     Returns
     -------
@@ -88,7 +89,7 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
 
 
 def trace(
-    toss: Toss, points: int | None = None, *, dt: float | None = None, solver: str | Solver = "exact"
+    toss: Toss, points: int | None = None, *, dt: Quantity | None = None, solver: str | Solver = "exact"
 ) -> Trace:
     """The flight of a coin or another body at equally spaced times, launch and landing included.
 
@@ -98,8 +99,8 @@ def trace(
         The toss.
     points : int, optional
         Number of times, from 2 to 1000000; 101 by default, without ``dt``.
-    dt : float, optional
-        Step of time in s; the last time is the landing.
+    dt : float or str, optional
+        Step of time in s or as in ``"50ms"``; the last time is the landing.
     solver : str or Solver
         The exact motion, or an integrator (``solvers()``).
 
@@ -146,15 +147,15 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     return Inverse(wanted, *_native.inverse(wanted, body))
 
 
-def rate_of_precession(turn: float, wobble: float, body: str | Body = "paper") -> tuple[float, float, float]:
+def rate_of_precession(turn: Quantity, wobble: Quantity, body: str | Body = "paper") -> tuple[float, float, float]:
     """The angular velocity of a coin by what can be seen: how fast it turns, and how far it wobbles.
 
     Parameters
     ----------
-    turn : float
-        How fast the normal goes round the angular momentum, in rad/s.
-    wobble : float
-        The angle ψ between the two, from 0 to π.
+    turn : float or str
+        How fast the normal goes round the angular momentum, in rad/s or as in ``"38rev/s"``.
+    wobble : float or str
+        The angle ψ between the two, from 0 to π, in rad or as in ``"81deg"``.
     body : str or Body
         A symmetric body.
 

@@ -13,6 +13,7 @@ from .errors import InputError, MalformedError, OutOfRangeError
 from .given import an, wrong
 from .launches import column
 from .results import DenseOutput, Solution, Work, fastest_turn
+from .units import Quantity
 
 
 def solve(
@@ -24,7 +25,7 @@ def solve(
     scheme: str | None = None,
     rtol: float | None = None,
     atol: float | None = None,
-    step: float | None = None,
+    step: Quantity | None = None,
     formulation: str | None = None,
     dense_output: bool = False,
 ) -> Solution:

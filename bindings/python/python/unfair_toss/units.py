@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, SupportsFloat, TypeAlias
 
 import numpy as np
 
 from ._native import in_si, unit_of
 from .errors import MalformedError
+
+Quantity: TypeAlias = SupportsFloat | str
+"""A number in SI units, a value with a unit, or a text with one."""
 
 PLAIN = {float, int, np.float64, np.float32, np.int64, np.int32}
 """Types of numbers that have no unit, and that NumPy reads as they are."""
@@ -40,7 +43,7 @@ def plain(field: str, value: Any, index: int | None = None) -> Any:
             return value  # It is refused for that.
         value = value if hasattr(value, "unit") else value.data
     # A series gives an element of itself by any name that is one of its labels.
-    if isinstance(getattr(value, "attrs", None), Mapping):
+    if isinstance(getattr(value, "attrs", None), Mapping) and hasattr(value, "shape"):
         return _labelled(field, value)
     return _quantity(field, value, index)
 
@@ -54,7 +57,7 @@ def _quantity(field: str, value: Any, index: int | None) -> Any:
     if convert is None:
         if unit is None or callable(unit):
             return value
-        raise _wrong(field, unit, index)
+        raise _wrong(field, f"{unit}, from which {type(value).__name__} cannot be converted", index)
     si, _ = unit_of(field)
     # To pint an angle is a number, so that 1 Hz would be 1 rad/s.
     if si == "rad/s" and hasattr(value, "m_as") and "radian" not in dict(value.to_root_units().unit_items()):
@@ -62,7 +65,7 @@ def _quantity(field: str, value: Any, index: int | None) -> Any:
     try:
         return convert(si)
     except Exception:  # Each package has its own.
-        raise _wrong(field, unit, index) from None
+        raise _wrong(field, f"of {type(value).__name__}" if unit is None else unit, index) from None
 
 
 def _labelled(field: str, value: Any) -> Any:
@@ -74,13 +77,13 @@ def _labelled(field: str, value: Any) -> Any:
         unit = value.attrs.get("units")
         if unit is None:
             return value
-        flat = np.asarray(held).reshape(-1)
-        if flat.dtype.kind not in "iuf":
-            raise _wrong(field, unit, None)
-        found = in_si(field, _known(str(unit)), np.ascontiguousarray(flat, np.float64))
-        if found is None:
-            raise _wrong(field, unit, None)
-        numbers = found.reshape(value.shape)
+        if _known(str(unit)) != unit_of(field)[0]:
+            flat = np.asarray(held).reshape(-1)
+            is_real = flat.dtype.kind in "iuf"
+            found = in_si(field, _known(str(unit)), np.ascontiguousarray(flat, np.float64)) if is_real else None
+            if found is None:
+                raise _wrong(field, unit, None)
+            numbers = found.reshape(value.shape)
     if not is_frame:
         result = value.copy(data=numbers)
         result.attrs = {}
@@ -105,6 +108,7 @@ def _known(unit: str) -> str:
 
 def _wrong(field: str, unit: object, index: int | None) -> MalformedError:
     _, expected = unit_of(field)
+    expected += " without a unit" if expected == "a number" else ""
     at = "" if index is None else f"[{index}]"
     message = f"{field}{at} has the unit {str(unit) or 'dimensionless'}: expected {expected}"
     return MalformedError(message, field=field, index=index, valid=expected)
