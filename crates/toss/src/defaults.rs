@@ -105,3 +105,54 @@ impl From<Plan> for Wanted {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sampling::named_space;
+
+    /// The plan of a method without numbers.
+    fn usual(method: Method, space: &Space) -> Plan {
+        Wanted::new(method).plan(space, LAUNCHES)
+    }
+
+    #[test]
+    fn what_is_not_given_follows_from_the_space() {
+        let axes = |rate_x| {
+            let texts = ["rate_x", "rate_y", "rate_z", "speed"].map(|name| Coordinate::named_in("axis", name).unwrap());
+            texts.into_iter().zip([rate_x, "5", "1", "3:5"]).collect::<Vec<_>>()
+        };
+        let coin = Space::parse(dynamics::Coin::PAPER.into(), &axes("0:9")).unwrap();
+        let book = dynamics::Body::from_listed_moments(&[1.0, 2.0, 2.5]).unwrap();
+        let book = Space::parse(book, &axes("0:9")).unwrap();
+        let fixed = Space::parse(dynamics::Coin::PAPER.into(), &axes("7")).unwrap();
+        let gridded = named_space("paper-fig4").unwrap();
+        assert_eq!(usual(Method::Random, &coin), Plan::Random { points: 250_000, seed: 1 });
+        assert_eq!(usual(Method::Random, &book), Plan::Random { points: 1 << 16, seed: 1 });
+        let sobol = |points| Scrambled { points, scrambles: 8, seed: 1 };
+        assert_eq!(usual(Method::Sobol, &book), Plan::Sobol(sobol(1 << 16)));
+        assert_eq!(usual(Method::ExactSpeed, &coin), Plan::ExactSpeed(Rest::Sobol(sobol(1 << 18))));
+        for space in [fixed, gridded] {
+            assert_eq!(usual(Method::ExactSpeed, &space), Plan::ExactSpeed(Rest::Grid));
+        }
+        let three = Wanted { scrambles: 3, ..Wanted::new(Method::Sobol) }.plan(&coin, LAUNCHES);
+        assert!(three.points(&coin).is_ok(), "{three:?}: each scramble has as many points");
+        assert_eq!((accuracy(&coin), accuracy(&book)), (1e-4, 1e-3));
+    }
+
+    #[test]
+    fn a_plan_keeps_its_numbers() {
+        let space = named_space("paper-fig4").unwrap();
+        let scrambled = Scrambled { points: 12, scrambles: 3, seed: 9 };
+        for plan in [
+            Plan::Grid,
+            Plan::Random { points: 7, seed: 9 },
+            Plan::Sobol(scrambled),
+            Plan::ExactSpeed(Rest::Sobol(scrambled)),
+            Plan::ExactSpeed(Rest::Grid),
+            Plan::Enclosure { accuracy: 1e-5 },
+        ] {
+            assert_eq!(Wanted::from(plan).plan(&space, LAUNCHES), plan);
+        }
+    }
+}
