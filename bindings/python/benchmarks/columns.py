@@ -56,9 +56,9 @@ def by_python(columns: np.ndarray) -> dict[str, float]:
     out, faces = np.empty(number), np.empty(number, np.int8)
     works: dict[str, Callable[[], object]] = {
         "numpy": lambda: closed_form(*columns),
-        "cos_tilt": lambda: ut.cos_tilt(*columns, out=out),
-        "outcome": lambda: ut.outcome(*columns, out=faces),
-        "count": lambda: ut.count(*columns),
+        "cos_tilt": lambda: ut.cos_tilt(*columns, out=out, threads=1),
+        "outcome": lambda: ut.outcome(*columns, out=faces, threads=1),
+        "count": lambda: ut.count(*columns, threads=1),
     }
     return {name: shortest(work, 15) / number for name, work in works.items()}
 

@@ -2,31 +2,37 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use ::toss::Attitude;
 use dynamics::Thrown;
 use dynamics::error::require;
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
-use crate::given::{count, number, optional_number};
+use crate::given::{count, optional_number};
 use crate::launches::{Common, Counts, Launches, added};
 use crate::solver::backend_of;
-use crate::threads::{self, A_CALL, A_PROOF};
+use crate::threads::{self, A_CALL, A_PROOF, SMALLEST_PART};
 use crate::toss::put_attitude;
 
 /// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
 const A_SLOW_CALL: usize = 1 << 6;
+
+/// Launches for the kernels beyond which threads are worth their start.
+const WORTH_THREADS: usize = 1 << 17;
 
 /// What the launches of some columns have in common, and the threads that solve them. The columns are the rates about x, y
 /// and z, the speeds, and where they vary gravity, the drop, the tilt, and w, x, y, z of the attitude.
 #[pyclass(frozen, module = "unfair_toss._native")]
 pub(crate) struct Batch {
     launches: Arc<Common>,
-    pool: Option<Arc<rayon::ThreadPool>>,
+    threads: Option<u64>,
+    /// Made at the first call that several threads are worth it for.
+    pool: OnceLock<Arc<rayon::ThreadPool>>,
 }
 
 /// Writes what is found of the launches in a range.
@@ -49,7 +55,7 @@ impl Batch {
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         body: &Bound<'_, PyAny>,
-        gravity: &Bound<'_, PyAny>,
+        gravity: Option<&Bound<'_, PyAny>>,
         drop: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
@@ -59,19 +65,19 @@ impl Batch {
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let drop = optional_number("drop", drop)?;
-        let gravity = number("gravity", gravity)?;
+        let gravity = optional_number("gravity", gravity)?.unwrap_or(DEFAULT_GRAVITY);
         require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
         drop.map(|drop| require("drop [m]", drop, "finite", true)).transpose().map_err(Failure::from)?;
         let mut given = Thrown::default();
         put_attitude(&mut given, tilt, attitude)?;
         let attitude = given.attitude().map_err(Failure::from)?.unwrap_or(Attitude::IDENTITY);
         let threads = threads.map(|threads| count("threads", threads)).transpose()?;
-        let pool = if threads == Some(1) { None } else { Some(Arc::new(threads::pool(threads)?)) };
+        threads::require(threads)?;
         let solver = solver.map(backend_of).transpose()?;
         // With a gravity of 2 m/s², a speed is the time of flight.
         let gravity = if timed { 2.0 } else { gravity };
         let launches = Common { body: body_of(body)?.get().body, attitude, gravity, drop, varying, timed, solver };
-        Ok(Self { launches: Arc::new(launches), pool })
+        Ok(Self { launches: Arc::new(launches), threads, pool: OnceLock::new() })
     }
 
     /// Whether the launches are solved by the kernels.
@@ -110,9 +116,9 @@ impl Batch {
         let launches = self.launches(&columns, first)?;
         let number = launches.len();
         let counts = if self.is_vectorised() {
-            threads::collect(py, self.pool.as_deref(), number, |range| count_runs(&launches, range))?
+            threads::collect(py, self.pool(number)?.as_deref(), number, |range| count_runs(&launches, range))?
         } else {
-            let (mut own, pool) = (launches.owned(), self.pool.clone());
+            let (mut own, pool) = (launches.owned(), self.pool(number)?);
             threads::aside(py, move |stop| {
                 own.stop = Some(stop.clone());
                 threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&own, range))
@@ -153,6 +159,20 @@ fn no_column(error: impl ToString) -> PyErr {
 }
 
 impl Batch {
+    /// The threads for so many launches; `None` for this one alone. By default there is one per core, unless the launches are
+    /// so few that threads take longer to start than one of them takes for all.
+    fn pool(&self, launches: usize) -> PyResult<Option<Arc<rayon::ThreadPool>>> {
+        let fewest = if self.is_vectorised() { WORTH_THREADS } else { SMALLEST_PART };
+        if self.threads == Some(1) || (self.threads.is_none() && launches <= fewest) {
+            return Ok(None);
+        }
+        if let Some(pool) = self.pool.get() {
+            return Ok(Some(pool.clone()));
+        }
+        let pool = Arc::new(threads::pool(self.threads)?);
+        Ok(Some(self.pool.get_or_init(|| pool).clone()))
+    }
+
     /// Writes what is asked of the launches, without Python's lock. What is not solved by the kernels may take long for a
     /// single launch; that is found of a copy, which a signal can leave behind.
     fn write<T: Element + Default + Copy + Send + 'static>(
@@ -169,9 +189,9 @@ impl Batch {
         let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, width)?;
         if self.is_vectorised() {
             let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
-            return threads::fill(py, self.pool.as_deref(), a_call, out, width, solve);
+            return threads::fill(py, self.pool(launches.len())?.as_deref(), a_call, out, width, solve);
         }
-        let (mut own, pool, length) = (launches.owned(), self.pool.clone(), out.len());
+        let (mut own, pool, length) = (launches.owned(), self.pool(launches.len())?, out.len());
         let found = threads::aside(py, move |stop| {
             own.stop = Some(stop.clone());
             let mut found = vec![T::default(); length];

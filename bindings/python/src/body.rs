@@ -1,12 +1,14 @@
 //! Rigid bodies, coins among them.
 
 use ::toss::catalogue::{entries, named_body};
+use ::toss::quantity::BodyRounding;
 use ::toss::{Coin, InputError};
+use dynamics::quantity::Given;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::Failure;
-use crate::given::{matrix, number, numbers, object, text};
+use crate::given::{matrix, object, quantities, quantity, text, written};
 
 /// A rigid body, by its inertia about the centre of mass.
 ///
@@ -24,8 +26,8 @@ pub(crate) struct Body {
 #[derive(Clone, PartialEq)]
 enum Origin {
     Named(String),
-    Cylinder([f64; 3]),
-    Moments(Vec<f64>),
+    Cylinder([Given; 3]),
+    Moments(Vec<Given>),
     Tensor([[f64; 3]; 3]),
 }
 
@@ -46,18 +48,17 @@ impl Body {
     ///
     /// Parameters
     /// ----------
-    /// mass : float
-    ///     In kg, above 0.
-    /// radius : float
-    ///     In m, above 0.
-    /// thickness : float
-    ///     In m, at least 0.
+    /// mass : float or str
+    ///     In kg or as in ``"5.67g"``, above 0.
+    /// radius, thickness : float or str
+    ///     In m or as in ``"24.26mm"``; the radius is above 0.
     #[staticmethod]
     fn cylinder(mass: &Bound<'_, PyAny>, radius: &Bound<'_, PyAny>, thickness: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let mass = number("mass", mass)?;
-        let (radius, thickness) = (number("radius", radius)?, number("thickness", thickness)?);
+        let mass = quantity("mass", mass)?;
+        let sizes = [mass, quantity("radius", radius)?, quantity("thickness", thickness)?];
+        let [mass, radius, thickness] = sizes.map(Given::quantity);
         let coin = Coin::from_cylinder(mass, radius, thickness).map_err(Failure::from)?;
-        Ok(Self { body: coin.into(), origin: Origin::Cylinder([mass, radius, thickness]) })
+        Ok(Self { body: coin.into(), origin: Origin::Cylinder(sizes) })
     }
 
     /// A body whose principal axes are x, y and z.
@@ -68,8 +69,9 @@ impl Body {
     ///     I1, I3 of a coin, or I1, I2, I3, in kg m². None may exceed the sum of the other two.
     #[staticmethod]
     fn from_moments(moments: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let moments = numbers("moments", moments, "a sequence of 2 or 3 real numbers")?;
-        let body = ::toss::Body::from_listed_moments(&moments).map_err(|error| Failure::from(error).of("moments"));
+        let moments = quantities("moments", moments, "a sequence of 2 or 3 real numbers")?;
+        let in_si: Vec<f64> = moments.iter().map(|given| given.si()).collect();
+        let body = ::toss::Body::from_listed_moments(&in_si).map_err(|error| Failure::from(error).of("moments"));
         Ok(Self { body: body?, origin: Origin::Moments(moments) })
     }
 
@@ -116,15 +118,10 @@ impl Body {
         self.body.coin().map(|coin| coin.inertia_ratio())
     }
 
-    fn __repr__(&self) -> String {
-        match &self.origin {
-            Origin::Named(name) => format!("Body.named('{name}')"),
-            Origin::Cylinder([mass, radius, thickness]) => {
-                format!("Body.cylinder({mass:?}, {radius:?}, {thickness:?})")
-            }
-            Origin::Moments(moments) => format!("Body.from_moments({moments:?})"),
-            Origin::Tensor(tensor) => format!("Body.from_tensor({tensor:?})"),
-        }
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (constructor, arguments) = self.made_by(py)?;
+        let texts = arguments.iter().map(|argument| Ok(argument.repr()?.to_string())).collect::<PyResult<Vec<_>>>()?;
+        Ok(format!("Body.{constructor}({})", texts.join(", ")))
     }
 
     fn __hash__(&self) -> u64 {
@@ -133,12 +130,7 @@ impl Body {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (constructor, arguments) = match &self.origin {
-            Origin::Named(name) => ("named", (name,).into_pyobject(py)?),
-            Origin::Cylinder(sizes) => ("cylinder", PyTuple::new(py, sizes)?),
-            Origin::Moments(moments) => ("from_moments", (moments.clone(),).into_pyobject(py)?),
-            Origin::Tensor(tensor) => ("from_tensor", (*tensor,).into_pyobject(py)?),
-        };
+        let (constructor, arguments) = self.made_by(py)?;
         Ok((py.get_type::<Self>().getattr(constructor)?, arguments))
     }
 }
@@ -152,6 +144,27 @@ pub(crate) fn body_of(argument: &Bound<'_, PyAny>) -> PyResult<Py<Body>> {
 }
 
 impl Body {
+    /// The constructor that made it, and its arguments.
+    fn made_by<'py>(&self, py: Python<'py>) -> PyResult<(&'static str, Bound<'py, PyTuple>)> {
+        let list = |given: &[Given]| given.iter().map(|given| written(py, *given)).collect::<PyResult<Vec<_>>>();
+        Ok(match &self.origin {
+            Origin::Named(name) => ("named", (name,).into_pyobject(py)?),
+            Origin::Cylinder(sizes) => ("cylinder", PyTuple::new(py, list(sizes)?)?),
+            Origin::Moments(moments) => ("from_moments", (list(moments)?,).into_pyobject(py)?),
+            Origin::Tensor(tensor) => ("from_tensor", (*tensor,).into_pyobject(py)?),
+        })
+    }
+
+    /// What the units of its moments rounded. Those of a cylinder round nothing.
+    pub(crate) fn rounding(&self) -> BodyRounding {
+        match &self.origin {
+            Origin::Moments(moments) => {
+                BodyRounding::of(moments, |moments| ::toss::Body::from_listed_moments(&moments))
+            }
+            _ => BodyRounding::Exact,
+        }
+    }
+
     /// The body of the catalogue that the argument `field` names.
     pub(crate) fn of_name(name: String, field: &'static str) -> PyResult<Self> {
         let body = named_body(&name).map_err(|error| Failure::from(error).of(field))?;

@@ -53,9 +53,13 @@ impl Failure {
     /// What the error says, with the argument in place of the field that it begins with.
     fn text(&self) -> String {
         let (text, field) = (self.error.to_string(), self.error.field().unwrap_or_default());
-        match text.strip_prefix(field) {
+        let text = match text.strip_prefix(field) {
             Some(rest) => format!("{}{rest}", argument(field)),
             None => text,
+        };
+        match &self.error {
+            Error::Input(InputError::OutOfRange { value, valid, .. }) => text.replace(valid, &in_python(valid, *value)),
+            _ => text,
         }
     }
 
@@ -79,6 +83,12 @@ impl Failure {
         }
         made(py, class, &message, field, self.launch(), valid.as_deref())
     }
+}
+
+/// What is valid, with Python's way to give the number that was refused in degrees.
+fn in_python(valid: &str, refused: f64) -> String {
+    const DEGREES: &str = "degrees have their unit, as in 15deg";
+    valid.replace(DEGREES, &format!("{refused} degrees are np.radians({refused}) or '{refused}deg'"))
 }
 
 /// The exception of a class of `unfair_toss.errors`.
@@ -143,7 +153,7 @@ fn class_of(error: &Error) -> (&'static str, Details) {
 
 fn class_of_input(error: &InputError) -> (&'static str, Details) {
     let (class, valid) = match error {
-        InputError::OutOfRange { valid, .. } => ("OutOfRangeError", Some((*valid).to_owned())),
+        InputError::OutOfRange { valid, value, .. } => ("OutOfRangeError", Some(in_python(valid, *value))),
         InputError::Malformed { expected, .. } | InputError::LookAlike { expected, .. } => {
             ("MalformedError", Some((*expected).to_owned()))
         }

@@ -1,6 +1,7 @@
 //! Estimates of probabilities.
 
-use ::toss::sampling::{self, Counts, Found, Space};
+use ::toss::defaults;
+use ::toss::sampling::{self, Counts, Found, IntervalKind, Space};
 use ::toss::{Answer, Backend, InputError, Registry, Scene, Want};
 use exact::STAGES;
 use pyo3::prelude::*;
@@ -49,7 +50,7 @@ impl From<&sampling::Estimate> for Estimate {
             heads: counts.map(|counts| counts.heads()),
             tails: counts.map(|counts| counts.tails()),
             undecided: counts.map(|counts| counts.undecided()),
-            certified: proven.is_some(),
+            certified: proven.is_some() || found.interval_kind == IntervalKind::Proven,
             proven_by: by_stage.map(stages),
             plan: found.plan.into(),
         }
@@ -61,10 +62,11 @@ impl From<&sampling::Estimate> for Estimate {
 pub(crate) fn estimate_by_solver(
     py: Python<'_>,
     #[pyo3(from_py_with = space_of)] space: Space,
-    #[pyo3(from_py_with = plan_of)] plan: sampling::Plan,
+    plan: &Bound<'_, PyAny>,
     solver: &Bound<'_, PyAny>,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<Estimate> {
+    let plan = plan_of(plan, &space)?;
     let (backend, pool): (Backend, _) = (backend_of(solver)?, threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();
@@ -78,9 +80,10 @@ pub(crate) fn estimate_by_solver(
 pub(crate) fn estimate_by_accuracy(
     py: Python<'_>,
     #[pyo3(from_py_with = space_of)] space: Space,
-    #[pyo3(from_py_with = accuracy)] accuracy: f64,
+    accuracy: Option<&Bound<'_, PyAny>>,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<Estimate> {
+    let accuracy = accuracy.map(self::accuracy).transpose()?.unwrap_or_else(|| defaults::accuracy(&space));
     let (scene, pool) = (Scene::new(Want::Probability(space), accuracy), threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();

@@ -1,9 +1,15 @@
-//! Values as Python gives them: numbers, counts, texts, objects of our classes, and short vectors of numbers. A vector is
+//! Values as Python gives them: quantities, counts, texts, objects of our classes, and short vectors of numbers. A vector is
 //! read by position, never by label. What is no such value is refused with the name of the argument, and with the position
-//! in a vector: nothing is converted whose meaning would change by it, such as a mask, a truth value, a text, a complex
-//! number or a span of time.
+//! in a vector: nothing is converted whose meaning would change by it, such as a mask, a truth value, a complex number or a
+//! span of time.
+//!
+//! A quantity is a number in SI units, a text with a unit, or a value of a package that has units, which
+//! `unfair_toss.units` converts.
 
-use numpy::PyArray1;
+use dynamics::AngleUnit;
+use dynamics::quantity::{Dimension, Given};
+use dynamics::thrown::{Field, Holds};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::PyTypeInfo;
 use pyo3::prelude::*;
 use pyo3::pyclass::PyClass;
@@ -22,6 +28,22 @@ const A_COUNT: &str = "a whole number from 0 to 2^64 - 1";
 /// The most characters of a value in a message.
 const SHOWN: usize = 40;
 
+/// What the argument `field` measures.
+fn dimension(field: &str) -> Dimension {
+    match field.split(" [").next().unwrap_or_default() {
+        // Those that are no fields of a toss by themselves.
+        "t" | "t_eval" | "dt" | "step" => Dimension::Time,
+        "slowest" => Dimension::Speed,
+        "mass" => Dimension::Mass,
+        "radius" | "thickness" => Dimension::Length,
+        "tensor" => Dimension::Inertia,
+        name => match Field::named(name).map(|field| field.info().holds) {
+            Ok(Holds::One(kind) | Holds::Several(kind) | Holds::List(&[kind, ..])) => kind,
+            _ => Dimension::Number,
+        },
+    }
+}
+
 /// A value that an argument holds, by the name of the argument and its position if it is one of several.
 #[derive(Clone, Copy)]
 struct Place<'a> {
@@ -36,23 +58,83 @@ impl Place<'_> {
         refused(value.py(), &message, self.field, self.index, expected)
     }
 
+    /// The number in SI units.
     fn number(self, value: &Bound<'_, PyAny>) -> PyResult<f64> {
         if let Ok(number) = value.cast_exact::<PyFloat>() {
             return Ok(number.value());
         }
-        let number = if is_real(value) { value.extract().ok() } else { None };
+        let plain = without_unit(self.field, value, self.index)?;
+        let number = if is_real(&plain) { plain.extract().ok() } else { None };
         number.ok_or_else(|| self.refused(value, A_NUMBER))
     }
 
+    /// The number in the unit of its text; any other value is one in SI units.
+    fn quantity(self, value: &Bound<'_, PyAny>) -> PyResult<Given> {
+        let kind = dimension(self.field);
+        let Ok(text) = value.cast::<PyString>() else { return Ok(kind.in_si(self.number(value)?)) };
+        let text = text.to_cow().unwrap_or_default();
+        // A text without a unit is more likely one that was never converted to a number.
+        let given = if text.trim().parse::<f64>().is_ok() { None } else { kind.given("", &text).ok() };
+        let expected = if kind == Dimension::Number { A_NUMBER.to_owned() } else { in_a_text(kind) };
+        given.filter(|_| kind != Dimension::Number).ok_or_else(|| self.refused(value, &expected))
+    }
+
     fn count(self, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<u64> {
-        let count = if is_real(value) && !value.is_instance_of::<PyFloat>() { value.extract().ok() } else { None };
+        let plain = without_unit(self.field, value, self.index)?;
+        let count = if is_real(&plain) && !plain.is_instance_of::<PyFloat>() { plain.extract().ok() } else { None };
         count.ok_or_else(|| self.refused(value, expected))
     }
 }
 
-/// The real number that an argument is.
+/// What is expected of a quantity, as a number or a text.
+fn in_a_text(kind: Dimension) -> String {
+    let units: Vec<_> = kind.units().iter().map(|unit| format!("'3{}'", unit.name())).collect();
+    format!("a real number, or a text such as {}", units.join(", "))
+}
+
+/// A value without its unit, in SI units if it has one.
+fn without_unit<'py>(field: &str, value: &Bound<'py, PyAny>, index: Option<usize>) -> PyResult<Bound<'py, PyAny>> {
+    if value.is_instance_of::<PyInt>() || value.is_instance_of::<PyString>() {
+        return Ok(value.clone());
+    }
+    value.py().import("unfair_toss.units")?.call_method1("plain", (field, value, index))
+}
+
+/// The SI unit of an argument, as packages with units read it, and what is expected of it in words.
+#[pyfunction]
+pub(crate) fn unit_of(field: &str) -> (&'static str, &'static str) {
+    let kind = dimension(field);
+    let unit = match kind {
+        Dimension::Acceleration => "m/s**2",
+        Dimension::Inertia => "kg*m**2",
+        _ => kind.units()[0].name(),
+    };
+    (unit, kind.expected())
+}
+
+/// Numbers in a unit that has a name here, in the SI unit of an argument; `None` for another unit.
+#[pyfunction]
+pub(crate) fn in_si<'py>(
+    py: Python<'py>,
+    field: &str,
+    unit: &str,
+    numbers: PyReadonlyArray1<'py, f64>,
+) -> Option<Bound<'py, PyArray1<f64>>> {
+    let kind = dimension(field);
+    let unit = kind.given("", &format!("1{unit}")).ok().filter(|given| given.value() == 1.0)?.unit();
+    let numbers = numbers.as_array();
+    Some(PyArray1::from_iter(py, numbers.iter().map(|number| unit.to_si(*number))))
+}
+
+/// The quantity that an argument is.
+pub(crate) fn quantity(field: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
+    Place { field, index: None }.quantity(value)
+}
+
+/// The real number in SI units that an argument is.
+#[pyfunction]
 pub(crate) fn number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    Place { field, index: None }.number(value)
+    quantity(field, value).map(Given::si)
 }
 
 /// The real number that an argument is, if it was given.
@@ -68,7 +150,7 @@ pub(crate) fn count(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
 
 /// The whole numbers of a sequence, by position, or a single one.
 pub(crate) fn counts(field: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<u64>> {
-    let Some(elements) = elements(value) else { return Ok(vec![count(field, value)?]) };
+    let Some(elements) = elements(field, value)? else { return Ok(vec![count(field, value)?]) };
     let count =
         |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.count(element, A_COUNT);
     elements.iter().enumerate().map(count).collect()
@@ -107,18 +189,36 @@ pub(crate) fn vector<const N: usize>(field: &str, value: &Bound<'_, PyAny>, expe
 
 /// The numbers of a sequence, by position.
 pub(crate) fn numbers(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<Vec<f64>> {
-    let elements = elements(value).ok_or_else(|| refused_value(field, value, expected))?;
     let number = |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.number(element);
-    elements.iter().enumerate().map(number).collect()
+    several(field, value, expected)?.iter().enumerate().map(number).collect()
+}
+
+/// The quantities of a sequence, by position.
+pub(crate) fn quantities(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<Vec<Given>> {
+    let given = |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.quantity(element);
+    several(field, value, expected)?.iter().enumerate().map(given).collect()
+}
+
+/// A quantity as it is written in Python: a number in SI units, or a text with its unit.
+pub(crate) fn written<'py>(py: Python<'py>, given: Given) -> PyResult<Bound<'py, PyAny>> {
+    if given.unit().angle_unit() == AngleUnit::RADIAN {
+        return Ok(given.value().into_pyobject(py)?.into_any());
+    }
+    Ok(given.to_string().into_pyobject(py)?.into_any())
+}
+
+/// The elements of what has to be a sequence.
+fn several<'py>(field: &str, value: &Bound<'py, PyAny>, expected: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    elements(field, value)?.ok_or_else(|| refused_value(field, value, expected))
 }
 
 /// The three rows of three numbers of a matrix, by position. An element that is no number is counted through all rows.
 pub(crate) fn matrix(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<[[f64; 3]; 3]> {
     let malformed = || refused_value(field, value, expected);
     let mut matrix = [[0.0; 3]; 3];
-    let rows = elements(value).filter(|rows| rows.len() == 3).ok_or_else(malformed)?;
+    let rows = elements(field, value)?.filter(|rows| rows.len() == 3).ok_or_else(malformed)?;
     for (row, numbers) in rows.iter().enumerate() {
-        let numbers = elements(numbers).filter(|numbers| numbers.len() == 3).ok_or_else(malformed)?;
+        let numbers = elements(field, numbers)?.filter(|numbers| numbers.len() == 3).ok_or_else(malformed)?;
         for (column, number) in numbers.iter().enumerate() {
             matrix[row][column] = Place { field, index: Some(3 * row + column) }.number(number)?;
         }
@@ -133,7 +233,9 @@ pub(crate) fn axis(field: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
         return Ok(text);
     }
     let at = |index| Place { field, index: Some(index) };
-    match elements(value).as_deref() {
+    let plain = without_unit(field, value, None)?;
+    let value = &plain;
+    match elements(field, value)?.as_deref() {
         // Numbers are written so that they are read back to the bit.
         Some([lo, hi]) => Ok(format!("{}:{}", at(0).number(lo)?, at(1).number(hi)?)),
         Some([lo, hi, points]) => {
@@ -154,7 +256,7 @@ pub(crate) fn array_of_numbers<'py>(
     field: &str,
     values: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let found = match elements(values) {
+    let found = match elements(field, values)? {
         Some(_) => numbers(field, values, "real numbers")?,
         None => vec![number(field, values)?],
     };
@@ -183,14 +285,20 @@ fn is_real(value: &Bound<'_, PyAny>) -> bool {
     kind.map_or(true, |kind| matches!(kind, 'i' | 'u' | 'f')) && value.len().is_err() && !is_masked()
 }
 
-/// The elements of a sequence by their positions; `None` of what has no order, of texts, and of single values.
-fn elements<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyAny>>> {
+/// The elements of a sequence by their positions, in SI units if it has a unit; `None` of what has no order, of texts, and of
+/// single values.
+fn elements<'py>(field: &str, value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
     if let Ok(tuple) = value.cast::<PyTuple>() {
-        return Some(tuple.iter().collect());
+        return Ok(Some(tuple.iter().collect()));
     }
     if let Ok(list) = value.cast::<PyList>() {
-        return Some(list.iter().collect());
+        return Ok(Some(list.iter().collect()));
     }
+    Ok(elements_in_order(&without_unit(field, value, None)?))
+}
+
+/// The same of what is neither a list nor a tuple.
+fn elements_in_order<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyAny>>> {
     // Those of pandas are known by labels as well.
     let values = value.call_method0("to_numpy").unwrap_or_else(|_| value.clone());
     let is_text = values.is_instance_of::<PyString>()

@@ -34,7 +34,7 @@ mod _native {
         batch::Batch,
         body::{Body, bodies},
         estimate::{estimate_by_accuracy, estimate_by_solver},
-        given::{array_of_numbers, count},
+        given::{array_of_numbers, count, in_si, number, unit_of},
         planner::plan,
         plans::Plan,
         single::{intervals, inverse, land, margins, rate_of_precession, solve, trace, wobble},

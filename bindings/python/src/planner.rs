@@ -1,12 +1,13 @@
 //! The planner: which model answers a question at the least cost.
 
-use ::toss::planner::Decision;
+use ::toss::defaults::PLANNED_POINTS;
+use ::toss::planner::{Decision, How};
 use ::toss::{Scene, Want};
 use pyo3::prelude::*;
 
 use crate::errors::malformed;
 use crate::given::{count, refused_value, text};
-use crate::plans::accuracy;
+use crate::plans::{Plan, accuracy};
 use crate::space::Space;
 use crate::threads;
 use crate::toss::Toss;
@@ -22,6 +23,7 @@ pub(crate) struct Choice {
     points: Option<u64>,
     expected_error: f64,
     expected_cost_ns: f64,
+    plan: Option<Plan>,
     passed_over: Vec<(String, String)>,
 }
 
@@ -56,6 +58,7 @@ pub(crate) fn plan(
         points: choice.points,
         expected_error: choice.expected_error,
         expected_cost_ns: choice.expected_cost_ns,
+        plan: if let How::Sampling(plan) = choice.how { Some(plan.into()) } else { None },
         passed_over: passed_over.iter().map(|(other, why)| (other.to_string(), why.to_string())).collect(),
     })
 }
@@ -84,7 +87,7 @@ fn wanted(want: &str, of: &Bound<'_, PyAny>, points: Option<&Bound<'_, PyAny>>) 
         "outcome" => Ok(Want::Outcome(toss)),
         "tilt" => Ok(Want::Tilt(toss)),
         "attitude" => Ok(Want::Attitude(toss)),
-        "trace" => Ok(Want::Trace { toss, points: points.unwrap_or(100) }),
+        "trace" => Ok(Want::Trace { toss, points: points.unwrap_or(PLANNED_POINTS) }),
         _ => Err(malformed("want", want, "outcome, tilt, attitude or trace, for a toss")),
     }
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use ::toss::defaults::TRACE_POINTS;
+use ::toss::quantity::Rounding;
 use ::toss::report;
 use ::toss::sampling::{Cone, Interval, SameSide, Spread, Wobble, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
@@ -15,11 +17,11 @@ use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed, refused};
-use crate::given::{counts, number, optional_number};
+use crate::given::{counts, number, object, optional_number};
 use crate::planner::points_of;
 use crate::solver::backend_of;
 use crate::threads::{self, Stop};
-use crate::toss::toss_of;
+use crate::toss::{Toss as Given, toss_of};
 
 /// The phase (rad) and the number of equal steps up to which a landing is found so soon that no signal need be listened for.
 const SHORT: f64 = 1e4;
@@ -60,16 +62,14 @@ impl From<Work> for Cost {
 
 /// The landing of a toss by a solver.
 #[pyfunction]
-pub(crate) fn land(
-    py: Python<'_>,
-    #[pyo3(from_py_with = toss_of)] toss: Toss,
-    solver: &Bound<'_, PyAny>,
-) -> PyResult<Landing> {
+pub(crate) fn land(py: Python<'_>, toss: &Bound<'_, PyAny>, solver: &Bound<'_, PyAny>) -> PyResult<Landing> {
+    let given = object::<Given>("toss", toss, "a Toss")?.get();
+    let (toss, rounding) = (given.toss, given.rounding());
     let backend = backend_of(solver)?;
     if is_short(&backend, &toss) {
-        return Ok(py.detach(|| landing(&backend, &toss))?);
+        return Ok(py.detach(|| landing(&backend, &toss, &rounding))?);
     }
-    threads::aside(py, move |_| landing(&backend, &toss))
+    threads::aside(py, move |_| landing(&backend, &toss, &rounding))
 }
 
 /// Whether a landing is found in some milliseconds at most.
@@ -85,8 +85,8 @@ fn is_short(backend: &Backend, toss: &Toss) -> bool {
     steps <= SHORT && toss.launch.rate().norm() * time * (moments[2] / moments[0]) <= SHORT
 }
 
-fn landing(backend: &Backend, toss: &Toss) -> Result<Landing, Failure> {
-    let found = report::Landing::new(toss, backend)?;
+fn landing(backend: &Backend, toss: &Toss, rounding: &Rounding) -> Result<Landing, Failure> {
+    let found = report::Landing::new(toss, backend)?.rounded(toss, rounding)?;
     let is_exact = matches!(backend, Backend::Exact(_));
     Ok(Landing {
         outcome: found.outcome.name(),
@@ -265,16 +265,16 @@ pub(crate) fn trace<'py>(
     dt: Option<&Bound<'py, PyAny>>,
     solver: &Bound<'py, PyAny>,
 ) -> PyResult<Rows<'py>> {
-    if points.is_some() == dt.is_some() {
-        return Err(refused(py, "trace needs points or dt, and not both", "points", None, "either points or dt"));
+    if points.is_some() && dt.is_some() {
+        return Err(refused(py, "trace takes points or dt, and not both", "points", None, "either points or dt"));
     }
     let backend = backend_of(solver)?;
     let (points, dt) = (points.map(points_of).transpose()?, optional_number("dt", dt)?);
     let flight = threads::aside(py, move |stop| {
         let solver = Stopping { solver: backend.solver(), stop };
         match (points, dt) {
-            (Some(points), _) => Ok(::toss::trace(&solver, &toss, points)?),
-            (None, dt) => Ok(trace_every(&solver, &toss, dt.unwrap_or(toss.launch.flight_time()))?),
+            (_, Some(dt)) => Ok(trace_every(&solver, &toss, dt)?),
+            (points, None) => Ok(::toss::trace(&solver, &toss, points.unwrap_or(TRACE_POINTS))?),
         }
     })?;
     let rows: Vec<Vec<f64>> = flight.iter().map(|point| point.numbers().into()).collect();

@@ -1,8 +1,8 @@
 //! Partial results of an estimate.
 
-use ::toss::sampling::{Plan as AnyPlan, Sampler, Space as AnySpace};
+use ::toss::sampling::{Sampler, Space as AnySpace};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyInt, PyTuple};
 
 use crate::errors::{Failure, malformed};
 use crate::estimate::Estimate;
@@ -48,6 +48,13 @@ impl Tally {
         Ok(Self { tally })
     }
 
+    /// Of the 0 that ``sum`` begins with.
+    fn __radd__(&self, other: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+        let py = other.py();
+        let is_nothing = other.is_exact_instance_of::<PyInt>() && other.eq(0)?;
+        if is_nothing { Ok(Py::new(py, self.clone())?.into_any()) } else { Ok(py.NotImplemented()) }
+    }
+
     /// The tally as JSON: a part of the command line, which ``unfair-toss merge`` reads, too.
     fn to_json(&self) -> PyResult<String> {
         serde_json::to_string(&self.tally).map_err(|error| malformed("tally", error, "a tally"))
@@ -84,11 +91,12 @@ impl Tally {
 pub(crate) fn tally(
     py: Python<'_>,
     #[pyo3(from_py_with = space_of)] space: AnySpace,
-    #[pyo3(from_py_with = plan_of)] plan: AnyPlan,
+    plan: &Bound<'_, PyAny>,
     start: u64,
     end: u64,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<Tally> {
+    let plan = plan_of(plan, &space)?;
     let pool = threads::pool(threads)?;
     let tally = threads::aside(py, move |stop| {
         let progress = |_| stop.here();

@@ -25,7 +25,7 @@ use crate::given::count;
 const MOST_THREADS: usize = 1024;
 
 /// Fewest launches for which a thread is worth its start.
-const SMALLEST_PART: usize = 1 << 10;
+pub(crate) const SMALLEST_PART: usize = 1 << 10;
 
 /// Most launches of a call that proves outcomes: so few that it takes less than half a second, even if each of them lands on
 /// its edge and is decided with many digits.
@@ -63,13 +63,18 @@ pub(crate) fn threads_of(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
     if value.is_none() { Ok(None) } else { count("threads", value).map(Some) }
 }
 
+/// This number of threads, if there can be so many; 0 for one per core.
+pub(crate) fn require(threads: Option<u64>) -> PyResult<usize> {
+    match threads.map(|number| (number, usize::try_from(number))) {
+        None => Ok(0),
+        Some((_, Ok(number @ 1..=MOST_THREADS))) => Ok(number),
+        Some((number, _)) => Err(malformed("threads", number, "1 to 1024, or None for one per core")),
+    }
+}
+
 /// The pool of this many threads; of all cores for `None`.
 pub(crate) fn pool(threads: Option<u64>) -> PyResult<rayon::ThreadPool> {
-    let number = match threads.map(|number| (number, usize::try_from(number))) {
-        None => 0,
-        Some((_, Ok(number @ 1..=MOST_THREADS))) => number,
-        Some((number, _)) => return Err(malformed("threads", number, "1 to 1024, or None for one per core")),
-    };
+    let number = require(threads)?;
     let build = rayon::ThreadPoolBuilder::new().num_threads(number).build();
     let threads = if number == 0 { "a thread per core".to_owned() } else { format!("{number} threads") };
     build.map_err(|error| cannot_start(&threads, format!("{error}; try threads=1")))

@@ -1,22 +1,24 @@
 //! A body and its launch.
 
+use ::toss::quantity::Rounding;
 use ::toss::{InputError, Launch};
 use dynamics::Thrown;
 use dynamics::quantity::Given;
 use dynamics::thrown::Field;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 
 use crate::body::{Body, body_of};
 use crate::errors::Failure;
-use crate::given::{no_others, object, optional_number, refused_value, vector};
+use crate::given::{no_others, object, quantities, quantity, refused_value, vector, written};
 
 /// A body and its launch: all that a flight depends on.
 ///
 /// Parameters
 /// ----------
 /// rate : sequence of 3 floats
-///     Angular velocity at launch in rad/s, along the axes of the body.
+///     Angular velocity at launch in rad/s, along the axes of the body. It and all other quantities may also be texts with a
+///     unit, such as ``"38rev/s"``, or values with a unit of pint, astropy or unyt.
 /// speed : float, optional
 ///     Upward speed at launch in m/s; this or ``time`` is needed.
 /// time : float, optional
@@ -63,9 +65,12 @@ impl Toss {
         others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         no_others::<Self>(py, others)?;
-        let mut given = Thrown::default();
-        let rate = vector("rate", rate, "a sequence of 3 real numbers")?;
-        given.put_si(Field::Rate, &rate).map_err(Failure::from)?;
+        let (mut given, given_rate) = (Thrown::default(), rate);
+        const RATE: &str = "a sequence of 3 real numbers";
+        let parts = quantities("rate", rate, RATE)?;
+        let rate = parts.iter().map(|part| part.si()).collect::<Vec<f64>>().try_into();
+        let rate: [f64; 3] = rate.map_err(|_| refused_value("rate", given_rate, RATE))?;
+        given.put(Field::Rate, parts).map_err(Failure::from)?;
         put_number(&mut given, Field::Speed, speed)?;
         put_number(&mut given, Field::Time, time)?;
         put_number(&mut given, Field::Gravity, gravity)?;
@@ -110,7 +115,7 @@ impl Toss {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let mut text = format!("Toss({:?}", self.rate());
+        let mut text = format!("Toss({}", self.given_rate(py)?.repr()?);
         for (name, value) in self.keywords(py)?.iter() {
             text += &format!(", {name}={}", value.repr()?);
         }
@@ -124,18 +129,29 @@ impl Toss {
         self.rate().iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
     }
 
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(([f64; 3],), Bound<'py, PyDict>)> {
-        Ok(((self.rate(),), self.keywords(py)?))
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((Bound<'py, PyList>,), Bound<'py, PyDict>)> {
+        Ok(((self.given_rate(py)?,), self.keywords(py)?))
     }
 }
 
 impl Toss {
+    fn given_rate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let parts = self.given.numbers(Field::Rate).iter().map(|part| written(py, *part));
+        PyList::new(py, parts.collect::<PyResult<Vec<_>>>()?)
+    }
+
+    /// What the units of its numbers rounded.
+    pub(crate) fn rounding(&self) -> Rounding {
+        let body = self.body.get().rounding();
+        Rounding { flight: self.given.rounds_flight(), rate: self.given.rounds_rate(), body }
+    }
+
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
         for (field, numbers) in self.given.given().filter(|(field, _)| *field != Field::Rate) {
             let name = field.info().name;
             match numbers {
-                [number] => keywords.set_item(name, number.si())?,
+                [number] => keywords.set_item(name, written(py, *number)?)?,
                 numbers => keywords.set_item(name, numbers.iter().map(|number| number.si()).collect::<Vec<f64>>())?,
             }
         }
@@ -157,8 +173,8 @@ fn launch(given: &Thrown, rate: [f64; 3], body: &::toss::Body) -> PyResult<Launc
 
 /// Gives `field` by the argument of its name.
 fn put_number(given: &mut Thrown, field: Field, value: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-    let Some(number) = optional_number(field.info().name, value)? else { return Ok(()) };
-    Ok(given.put_si(field, &[number]).map_err(Failure::from)?)
+    let Some(value) = value else { return Ok(()) };
+    Ok(given.put(field, vec![quantity(field.info().name, value)?]).map_err(Failure::from)?)
 }
 
 /// Gives the attitude at launch by the arguments `tilt` and `attitude`.

@@ -413,12 +413,14 @@ def test_a_wrong_condition_is_named_by_its_launch(solver, name, right, wrong, fi
 def test_columns_of_xarray_are_combined_by_their_labels():
     x = xarray.DataArray([3.0, 2.0, 1.0], {"throw": ["a", "b", "c"]})
     v = xarray.DataArray([2.0, 4.0], {"hand": [1, 2]}, name="speed", attrs={"units": "m/s"})
-    found = ut.cos_tilt(x, 1.0, x * v.T, v)
+    z = (x * v.T).drop_attrs()  # Of which xarray keeps the unit of the speed.
+    found = ut.cos_tilt(x, 1.0, z, v)
     assert found.dims == ("throw", "hand") and found.sel(throw="b", hand=2) == ut.cos_tilt(2.0, 1.0, 8.0, 4.0)
-    assert found.identical(ut.cos_tilt(x, 1.0, (x * v).transpose("hand", "throw"), v))
+    assert found.identical(ut.cos_tilt(x, 1.0, z.transpose("hand", "throw"), v))
     turned = ut.attitude(x, 1.0, 1.0, v)
     assert turned.dims == ("throw", "hand", "component") and turned.sel(component="w").shape == (3, 2)
-    assert ut.outcome(x, 1, 1, v, gravity=v).sel(hand=1, throw="a") == ut.outcome(3, 1, 1, 2, gravity=2)
+    gravity = v.assign_attrs(units="m/s2")
+    assert ut.outcome(x, 1, 1, v, gravity=gravity).sel(hand=1, throw="a") == ut.outcome(3, 1, 1, 2, gravity=2)
     assert ut.count(x, 1, 1, v) == ut.count(x.values[:, None], 1, 1, v.values)
     assert (ut.cos_tilt(x, [1.0, 2.0, 3.0], 1, 2) == ut.cos_tilt(x.values, [1.0, 2.0, 3.0], 1, 2)).all()
 
@@ -449,6 +451,16 @@ def test_columns_of_pandas_keep_their_labels():
     assert ut.wobble(frame.x.astype(int), frame.v.astype(int) + 9) == ut.wobble([3, 2], [11, 13])
     out = np.empty(2)
     assert (ut.cos_tilt(frame.x, 1.0, 1.0, frame.v, out=out) == out).all()
+
+
+def test_attitudes_that_labels_have_no_place_for_are_refused():
+    frame = pandas.DataFrame({"a": [1.0, 2.0]})
+    array = xarray.DataArray([3.0, 2.0], {"component": ["b", "a"]})
+    for column in (frame, array):
+        assert ut.cos_tilt(column, 1.0, 1.0, 3.0).shape == column.shape
+        with pytest.raises(errors.MalformedError, match="component") as caught:
+            ut.attitude(1.0, column, 1.0, 3.0)
+        assert caught.value.field == "rate_y"
 
 
 SERIES = pandas.Series([3.0, 2.0], index=["b", "a"])

@@ -6,6 +6,7 @@ import fractions
 import inspect
 import math
 import random
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pandas
@@ -74,6 +75,10 @@ def print_nothing(done, all_of_them):
     pass
 
 
+def one_thread():
+    return ThreadPoolExecutor(1)
+
+
 # Everything public that takes arguments, with arguments that are right.
 CALLS = {
     "Toss": (ut.Toss, {"rate": (1, 2, 3), "speed": 3.0}),
@@ -94,6 +99,7 @@ CALLS = {
     "Plan.sobol": (ut.Plan.sobol, {"points": 16, "scrambles": 4, "seed": 1}),
     "Plan.exact_speed": (ut.Plan.exact_speed, {"points": 16, "scrambles": 4, "seed": 1}),
     "Plan.enclosure": (ut.Plan.enclosure, {"accuracy": 1e-6}),
+    "Plan.of": (PLAN.of, {"space": SPACE}),
     "Plan.points": (PLAN.points, {"space": SPACE}),
     "Plan.from_json": (ut.Plan.from_json, {"text": PLAN.to_json()}),
     "Tally.from_json": (ut.Tally.from_json, {"text": TALLY.to_json()}),
@@ -114,11 +120,11 @@ CALLS = {
     "tally": (ut.tally, {"space": SPACE, "plan": PLAN, "range": (0, 10), "threads": 1, "progress": print_nothing}),
     "merge": (ut.merge, {"parts": [TALLY]}),
     "estimate": (ut.estimate, {"whole": TALLY}),
-    "probability": (ut.probability, {"space": SPACE, "plan": PLAN, "threads": 1, "progress": print_nothing, "retries": 3}),
+    "probability": (ut.probability, {"space": SPACE, "plan": PLAN, "threads": 1, "progress": print_nothing}),
     "probability in parts": (ut.probability, {"space": SPACE, "plan": PLAN, "shards": 2}),
     "probability by a solver": (ut.probability, {"space": SPACE, "plan": PLAN, "solver": "quaternion"}),
     "probability to an accuracy": (ut.probability, {"space": SPACE, "accuracy": 1e-2}),
-    "probability by an executor": (ut.probability, {"space": SPACE, "plan": PLAN, "executor": None, "shards": 2}),
+    "probability by an executor": (ut.probability, {"space": SPACE, "plan": PLAN, "executor": one_thread, "shards": 2, "retries": 3}),
     "probability in a folder": (ut.probability, {"space": SPACE, "plan": PLAN, "folder": None, "shards": 2}),
     **{
         f"{function.__name__}{words}": (function, COLUMNS | {"threads": 1} | more)
@@ -179,6 +185,49 @@ def test_what_would_change_its_meaning_is_no_number(name, argument):
     if argument not in ("rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt") or name != "Space":
         with pytest.raises(errors.InputError):
             call(**(right | {argument: "3"}))
+
+
+EFFECTS = {
+    "probability": (ut.probability, {"space": SPACE}),
+    "probability of a plan": (ut.probability, {"space": SPACE, "plan": PLAN}),
+    "probability of an enclosure": (ut.probability, {"space": SPACE, "plan": ut.Plan.enclosure(1e-3)}),
+    "probability by a solver": (ut.probability, {"space": SPACE, "plan": PLAN, "solver": "gamma"}),
+    "tally": (ut.tally, {"space": SPACE, "plan": PLAN}),
+    "plan of a toss": (ut.plan, {"want": "tilt", "of": TOSS, "accuracy": 1e-6}),
+    "plan of a space": (ut.plan, {"want": "probability", "of": SPACE, "accuracy": 1e-3}),
+    "solve": (ut.solve, {"toss": TOSS, "t_eval": [0.1]}),
+    "trace": (ut.trace, {"toss": TOSS, "points": 3}),
+    "cos_tilt": (ut.cos_tilt, COLUMNS),
+    "cos_tilt by time": (ut.cos_tilt, {"rate_x": 1.0, "rate_y": 1.0, "rate_z": 2.5, "time": 0.6}),
+    "Toss": (ut.Toss, {"rate": (1, 1, 2.5), "speed": 3.0}),
+    "Toss by time": (ut.Toss, {"rate": (1, 1, 2.5), "time": 0.6}),
+    "Solver": (ut.Solver, {"name": "euler"}),
+    "exact": (ut.Solver, {"name": "exact"}),
+    "Plan.exact_speed": (lambda **more: ut.Plan.exact_speed(**more).of(SPACE), {}),
+    "rate_of_precession": (ut.rate_of_precession, {"turn": 20.0, "wobble": 1.0}),
+    "intervals": (ut.intervals, {"toss": ut.Toss((1, 1, 2.5), speed=3.0)}),
+}
+KEYWORDS = {
+    "accuracy": 1e-2, "solver": "quaternion", "executor": one_thread, "shards": 3, "retries": 5, "scheme": "rk4", "rtol": 1e-3,
+    "atol": 1e-3, "step": 0.1, "formulation": "vertical", "method": "RK45", "points": 4096, "dt": 0.25, "gravity": 5.0, "drop": 0.5,
+    "tilt": 1.0, "attitude": (0.6, 0.8, 0, 0), "body": "us-quarter", "scrambles": 4, "seed": 3, "range": (0, 50), "slowest": 2.0,
+    "dense_output": True, "progress": None, "folder": None, "out": None, "threads": 1,
+}  # fmt: skip
+# They say how an answer is computed, or are where it comes from.
+NO_ANSWERS = {"executor", "shards", "progress", "folder", "out", "threads"}
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_a_keyword_has_an_effect_or_is_refused(name):
+    call, right = EFFECTS[name]
+    keywords = KEYWORDS if "lambda" in getattr(call, "__name__", "") else set(inspect.signature(call).parameters) - set(right)
+    for keyword in set(keywords) & set(KEYWORDS) - NO_ANSWERS:
+        value = KEYWORDS[keyword]
+        try:
+            changed = call(**(right | {keyword: value}))
+        except (TypeError, errors.TossError):
+            continue
+        assert np.any(changed != call(**right)), keyword
 
 
 def test_every_public_callable_is_tried():

@@ -8,6 +8,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import unfair_toss as ut
@@ -63,6 +64,7 @@ def test_an_enclosure_is_proven_and_has_no_parts(ask):
     found = ut.probability(FIG4, ut.Plan.enclosure(1e-9))
     assert (found.probability, found.interval_kind) == (expected["probability"], "proven")
     assert found.interval == tuple(expected["interval"]) and expected["proven"]
+    assert found.certified and expected["certified"] and found.proven_by is None
     for refused in ({"shards": 2}, {"progress": print}):
         with pytest.raises(errors.OutsideModelError):
             ut.probability(FIG4, ut.Plan.enclosure(), **refused)
@@ -119,8 +121,16 @@ def test_parts_that_do_not_fit_are_refused():
         with pytest.raises(errors.MalformedError) as caught:
             ut.tally(FIG4, RANDOM, wrong)
         assert caught.value.field == "range"
+    for nothing in (1, 0.5, False):
+        with pytest.raises(TypeError):
+            nothing + first
     with pytest.raises(TypeError):
         first + 1
+
+
+def test_parts_add_up_by_sum():
+    tallies = [ut.tally(FIG4, RANDOM, edge) for edge in ((0, 9), (9, 500_000), (500_000, 1_000_003))]
+    assert ut.estimate(sum(tallies)) == ut.probability(FIG4, RANDOM)
 
 
 @pytest.mark.parametrize("make", [lambda: ThreadPoolExecutor(3), processes], ids=["threads", "processes"])
@@ -199,9 +209,19 @@ def test_a_part_that_is_there_is_not_computed_again_and_a_wrong_one_is_refused(t
     (tmp_path / names[0]).write_text((tmp_path / names[1]).read_text())
     with pytest.raises(errors.PartError, match="part-1-of-5.json: it holds another part"):
         ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path)
-    (tmp_path / names[0]).write_text("{}")
-    with pytest.raises(errors.PartError, match="part-1-of-5.json"):
-        ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path)
+    right = (tmp_path / names[1]).read_bytes()
+    for content in (b"", b"{}", b"[]", b"\xff\xfe\0", right[:-9], "é".encode("latin-1"), right.decode().encode("utf-16"), (tmp_path / names[1]).read_bytes()):
+        (tmp_path / names[0]).write_bytes(content)
+        with pytest.raises(errors.PartError, match="part-1-of-5.json: .*; remove it to compute it"):
+            ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path)
+    (tmp_path / names[0]).unlink()
+    (tmp_path / names[1]).write_bytes(b"\xef\xbb\xbf" + right)  # As editors of Windows write it.
+    monkeypatch.setattr(parts, "compute", original)
+    assert ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path).heads == found.heads
+    mask = os.umask(0o022)
+    os.umask(mask)
+    assert (tmp_path / names[0]).stat().st_mode & 0o777 == 0o666 & ~mask
+    assert sorted(path.name for path in tmp_path.iterdir()) == names
 
 
 @pytest.mark.parametrize("field", ["heads", "tails", "streams", "digest"])
@@ -264,6 +284,8 @@ def test_a_solver_decides_outcomes_and_proves_none():
         ({"shards": 0}, "shards"),
         ({"shards": 10**7}, "shards"),
         ({"shards": 2, "retries": -1}, "retries"),
+        ({"shards": 2, "retries": 3}, "retries"),
+        ({"retries": 99}, "retries"),
         ({"plan": None, "shards": 2}, "plan"),
         ({"plan": None, "solver": "gamma"}, "plan"),
         ({"plan": None, "accuracy": 0.0}, "accuracy"),
@@ -278,11 +300,84 @@ def test_arguments_without_effect_are_refused(arguments, field):
 
 
 def test_impossible_plans_are_refused():
-    for make in (lambda: ut.Plan.random(0), lambda: ut.Plan.sobol(9), lambda: ut.Plan.exact_speed(seed=2)):
+    for make in (
+        lambda: ut.Plan.random(0),
+        lambda: ut.Plan.sobol(9),
+        lambda: ut.Plan.exact_speed(9),
+        lambda: ut.Plan.exact_speed(scrambles=0),
+        lambda: ut.Plan.exact_speed(seed=2).points(GRID),
+        lambda: ut.Plan.exact_speed(scrambles=2).points(GRID),
+        lambda: ut.Plan.exact_speed(8).points(ut.Space(rate_x=1, rate_y=0, rate_z=0, speed=(1, 2))),
+        lambda: ut.Plan.random().to_json(),
+    ):
         with pytest.raises(errors.MalformedError):
             make()
     with pytest.raises(errors.InputError):
         ut.probability(ut.Space(rate_x=(0, 1), rate_y=0, rate_z=0, speed=1), ut.Plan.grid())
+
+
+def test_a_choice_of_the_planner_runs_where_a_plan_does(tmp_path):
+    choice = ut.plan("probability", FIG4, 1e-3)
+    assert isinstance(choice.plan, ut.Plan) and choice.plan.method == choice.method
+    found = ut.probability(FIG4, choice)
+    assert found == ut.probability(FIG4, choice.plan) == ut.merge([ut.tally(FIG4, choice)])
+    assert ut.probability(FIG4, choice, shards=2, folder=tmp_path).probability == found.probability
+    with pytest.raises(errors.MalformedError, match="plan is a Choice of the model .*, which tries no launches"):
+        ut.probability(FIG4, ut.plan("tilt", ut.Toss((1, 2, 3), speed=3), 1e-3))
+
+
+def test_a_generator_of_numpy_gives_a_seed():
+    generator, sequence = np.random.default_rng(1), np.random.SeedSequence(7)
+    drawn = [ut.Plan.random(10, seed=generator) for _ in range(2)]
+    assert drawn[0] == ut.Plan.random(10, seed=int(np.random.default_rng(1).integers(2**63))) and drawn[0] != drawn[1]
+    first = int(sequence.generate_state(1, np.uint64)[0])
+    assert ut.Plan.sobol(16, seed=sequence) == ut.Plan.sobol(16, seed=first) == ut.Plan.sobol(16, seed=sequence)
+    for wrong in (np.random.RandomState(1), np.random.PCG64(1), np.random):
+        with pytest.raises(errors.MalformedError):
+            ut.Plan.random(10, seed=wrong)
+
+
+GRID = ut.Space(rate_x=(0, 40, 4), rate_y=5, rate_z=(10, 20, 3), speed=(3, 5))
+BOOK = ut.Space(rate_x=(0, 9), rate_y=5, rate_z=0.1, speed=(3, 5), body=ut.Body.from_moments((1, 2, 2.8)))
+AXES = {
+    "paper-fig4": (FIG4, ["--space", "paper-fig4"]),
+    "a grid": (GRID, "--rate-x 0:40:4 --rate-y 5 --rate-z 10:20:3 --speed 3:5".split()),
+    "a book": (BOOK, "--rate-x 0:9 --rate-y 5 --rate-z 0.1 --speed 3:5 --moments 1,2,2.8".split()),
+    "two rates": (ut.Space(rate_x=(0, 9), rate_y=5, rate_z=(0, 9), speed=(3, 5)), "--rate-x 0:9 --rate-y 5 --rate-z 0:9 --speed 3:5".split()),
+    "three rates": (ut.Space(rate_x=(0, 2), rate_y=(0, 1), rate_z=(0, 1), speed=(1, 2), tilt=1), "--rate-x 0:2 --rate-y 0:1 --rate-z 0:1 --speed 1:2 --tilt 1".split()),
+}
+
+
+@pytest.mark.parametrize("name", AXES)
+def test_what_is_not_given_is_what_the_command_line_takes(ask, name):
+    """Every default of an estimate: the method, its launches, scrambles, seed and accuracy, for each kind of space."""
+    space, options = AXES[name]
+    plans = [("random", ut.Plan.random()), ("sobol", ut.Plan.sobol()), ("exact-speed", ut.Plan.exact_speed()), ("enclosure", ut.Plan.enclosure()), (None, None)]
+    for method, plan in plans:
+        expected = ask("probability", *options, *(["--method", method] if method else []))
+        if "no effect" in expected.get("error", {}).get("message", ""):
+            continue  # Points of axes that are typed for this method; a space of Python is for any.
+        if "error" in expected:
+            with pytest.raises(errors.TossError):
+                ut.probability(space, plan)
+            continue
+        found = ut.probability(space, plan)
+        assert (found.plan.method, found.points, found.probability) == (expected["method"], expected["points"], expected["probability"])
+        assert (found.interval, found.interval_kind) == (expected["interval"] and tuple(expected["interval"]), expected["interval_kind"])
+        assert found.certified == expected["certified"] and (plan is None or found.plan == plan.of(space))
+
+
+def test_what_is_not_given_of_a_flight_is_what_the_command_line_takes(ask):
+    toss, options = ut.Toss((9, 4, 3), speed=1.5), ["--rate", "9,4,3", "--speed", "1.5"]
+    assert ut.toss(toss).cos_tilt == ask("toss", *options)["cos_tilt"]
+    for solver in ("quaternion", "euler", "gamma"):
+        landing, asked = ut.toss(toss, solver), ask("toss", *options, "--solver", solver)
+        assert (landing.cos_tilt, landing.scheme, landing.work.rhs_calls) == (asked["cos_tilt"], asked["scheme"], asked["work"]["rhs_calls"])
+        equal, asked = ut.toss(toss, ut.Solver(solver, scheme="rk4")), ask("toss", *options, "--solver", solver, "--scheme", "rk4")
+        assert equal.work.rhs_calls == asked["work"]["rhs_calls"]
+    planned = ask("plan", *options, "--want", "trace", "--accuracy", "1e-6")
+    assert ut.plan("trace", toss, 1e-6).expected_cost_ns == planned["expected_cost_ns"]
+    assert len(ut.trace(toss).t) == 101
 
 
 def test_what_is_undecided_is_no_share_of_tails():

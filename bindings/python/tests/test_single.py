@@ -59,7 +59,7 @@ def test_a_trace_has_the_bits_of_the_command_line(ask):
         assert trace.face.tolist() == [point["face"] for point in points]
         assert trace.cos_tilt.tolist() == [point["cos_tilt"] for point in points]
     assert ut.trace(CHEATED, dt=0.1).t[-1] == CHEATED.flight_time
-    for arguments in ({}, {"points": 3, "dt": 0.1}, {"points": 1}, {"dt": 0.0}):
+    for arguments in ({"points": 3, "dt": 0.1}, {"points": 1}, {"dt": 0.0}):
         with pytest.raises(errors.InputError):
             ut.trace(CHEATED, **arguments)
 

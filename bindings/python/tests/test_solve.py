@@ -180,6 +180,40 @@ def test_flights_become_tables_and_pictures(flight):
     matplotlib.pyplot.close()
 
 
+def test_no_line_joins_times_between_which_the_body_turns_by_more_than_a_quarter():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    # A thousand turns, of which each tenth is seen at the same cos θ.
+    spinning = ut.Toss(ut.rate_of_precession(1000 * 2 * np.pi, np.radians(80)), time=1.0)
+    racket = ut.Toss((0.1, 90.0, 0.1), time=1.0, body="racket")
+    assert 90.0 < ut.trace(racket).fastest_turn < 130.0  # When it turns over, it is faster than at launch.
+    assert ut.solve(racket, t_eval=np.linspace(0.0, 1.0, 9999)).rate.max() < ut.trace(racket).fastest_turn
+    for flight, style in [
+        (ut.trace(spinning, 101), "None"),
+        (ut.trace(spinning, 3999), "None"),
+        (ut.trace(spinning, 4003), "-"),
+        (ut.solve(spinning, t_eval=np.linspace(0.0, 1.0, 101)), "None"),
+        (ut.solve(spinning, t_eval=[*np.linspace(0.0, 0.01, 100), 1.0]), "None"),
+        (ut.solve(spinning, t_eval=np.linspace(0.0, 0.01, 101)), "-"),
+        (ut.trace(racket, 50), "None"),
+        (ut.trace(racket, 100), "-"),
+        (ut.trace(ut.Toss((0, 0, 0), time=1.0), 30), "-"),
+    ]:
+        line = flight.plot().lines[0]
+        matplotlib.pyplot.close()
+        assert line.get_linestyle() == style
+
+
+def test_the_angles_are_those_of_scipys_upper_case_sequence():
+    from scipy.spatial.transform import Rotation
+
+    flight = ut.trace(TOSS, 7)
+    turned = Rotation.from_euler("ZXZ", flight.angles).as_quat(scalar_first=True)
+    assert np.allclose(np.abs((turned * flight.attitude).sum(axis=1)), 1.0, rtol=0, atol=1e-15)
+    assert "ZXZ" in ut.Trace.__doc__
+
+
 def test_few_times_are_points_and_no_line():
     import matplotlib
 

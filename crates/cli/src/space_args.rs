@@ -7,12 +7,11 @@ use clap::Args;
 use dynamics::thrown::Field;
 use indicatif::ProgressBar;
 use rayon::ThreadPoolBuilder;
-use sampling::enclosure::usual_accuracy;
 use sampling::{
-    AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Scrambled, Space, named_space,
-    named_spaces,
+    AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
 };
 use toss::Error;
+use toss::defaults::{LAUNCHES, LAUNCHES_OF_A_NODE, Launches, MOST_OF_BODIES, SEED, Wanted};
 use toss::quantity::Dimension;
 
 use crate::chart::named;
@@ -162,25 +161,22 @@ pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>
 /// Options for the number and the seed of launches.
 #[derive(Debug, Args)]
 pub(crate) struct PlanArgs {
-    /// Number of launches [default: 250000 for random, 262144 for sobol, 1024 per node of a map, at most 65536 of a body
-    /// with I1 ≠ I2; exact-speed takes the grid of the other axes if all have points, else as many launches as sobol]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=u64::MAX))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=u64::MAX),
+          help = help_of_points())]
     points: Option<u64>,
-    /// Seed of the random launches or of the scrambles [default: 1]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed,
+          help = format!("Seed of the random launches or of the scrambles [default: {SEED}]"))]
     seed: Option<u64>,
 }
 
-/// The numbers of launches that are used if no `--points` is given, and the accuracy of an enclosure, if one is given.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Defaults {
-    pub(crate) random: u64,
-    pub(crate) sobol: u64,
-    pub(crate) accuracy: Option<f64>,
+fn help_of_points() -> String {
+    let (Launches { random, sobol }, node) = (LAUNCHES, LAUNCHES_OF_A_NODE.sobol);
+    format!(
+        "Number of launches [default: {random} for random, {sobol} for sobol, {node} per node of a map, at most \
+         {MOST_OF_BODIES} of a body with I1 ≠ I2; exact-speed takes the grid of the other axes if all have points, else as \
+         many launches as sobol]"
+    )
 }
-
-/// The most launches of bodies with I1 ≠ I2 by default, which are proven one by one.
-const MOST_OF_BODIES: u64 = 1 << 16;
 
 impl PlanArgs {
     /// Refuses a number or a seed of launches without a method that they are for.
@@ -194,26 +190,16 @@ impl PlanArgs {
         }
     }
 
-    /// The plan for sampling `space`.
-    pub(crate) fn plan(&self, method: Method, space: &Space, default: Defaults) -> Result<Plan, Failure> {
-        let seed = self.seed.unwrap_or(1);
-        let most = if space.coin().is_some() { u64::MAX } else { MOST_OF_BODIES };
-        let points = |default: u64| self.points.unwrap_or(default.min(most));
-        let scrambled = || Scrambled::new(points(default.sobol), seed);
-        let plan = match method {
-            Method::Grid => Plan::Grid,
-            Method::Random => Plan::Random { points: points(default.random), seed },
-            Method::Sobol => Plan::Sobol(scrambled()),
-            Method::Enclosure => {
-                Plan::Enclosure { accuracy: default.accuracy.unwrap_or_else(|| usual_accuracy(space)) }
-            }
-            Method::ExactSpeed => {
-                let grid = Plan::ExactSpeed(Rest::Grid);
-                let only_the_speed_is_free = space.free().all(|of| of == Coordinate::Speed);
-                let has_grid = self.points.is_none() && grid.points(space).is_ok();
-                if only_the_speed_is_free || has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) }
-            }
-        };
+    /// The plan for sampling `space`, of `usual` launches if no number is given.
+    pub(crate) fn plan(
+        &self,
+        method: Method,
+        accuracy: Option<f64>,
+        space: &Space,
+        usual: Launches,
+    ) -> Result<Plan, Failure> {
+        let seed = self.seed.unwrap_or(SEED);
+        let plan = Wanted { points: self.points, seed, accuracy, ..Wanted::new(method) }.plan(space, usual);
         self.require_effect(plan, space)?;
         Ok(plan)
     }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::coordinate::Coordinate;
 use crate::enclosure::require_accuracy;
-use crate::plan::{Method, Plan, Rest, SCRAMBLES, Scrambled};
+use crate::plan::{Method, Plan, Rest, SCRAMBLES, SEED, Scrambled};
 
 /// Seeds as plain data: a number or its digits as a text. A seed above 2^53 is written as a text, because many readers of JSON
 /// round such numbers, and TOML has none above 2^63.
@@ -119,7 +119,7 @@ impl PlanData {
         let scrambles = self.scrambles.unwrap_or(SCRAMBLES);
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         require("scrambles", scrambles as f64, "at least 1", scrambles >= 1)?;
-        let scrambled = Scrambled { points: self.points()?, scrambles, seed: self.seed.unwrap_or(1) };
+        let scrambled = Scrambled { points: self.points()?, scrambles, seed: self.seed.unwrap_or(SEED) };
         scrambled.points_each()?;
         Ok(scrambled)
     }
@@ -139,7 +139,7 @@ impl TryFrom<PlanData> for Plan {
             (Method::Grid, _) => data.require_none(&[points, scrambles, seed]).map(|()| Self::Grid),
             (Method::Random, _) => {
                 data.require_none(&[scrambles])?;
-                Ok(Self::Random { points: data.points()?, seed: data.seed.unwrap_or(1) })
+                Ok(Self::Random { points: data.points()?, seed: data.seed.unwrap_or(SEED) })
             }
             (Method::Sobol, _) => Ok(Self::Sobol(data.scrambled()?)),
             (Method::ExactSpeed, Some(_)) => Ok(Self::ExactSpeed(Rest::Sobol(data.scrambled()?))),

@@ -14,6 +14,9 @@ use crate::space::{Cube, Space};
 /// Default number of independent scrambles of Sobol's sequence in an estimate.
 pub const SCRAMBLES: u64 = 8;
 
+/// Default seed of random launches and of scrambles.
+pub const SEED: u64 = 1;
+
 /// A method of choosing launches, without its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {

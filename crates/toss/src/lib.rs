@@ -221,6 +221,7 @@
 
 mod answer;
 mod choice;
+pub mod defaults;
 mod integrators;
 mod model;
 mod plan;

@@ -316,8 +316,10 @@ impl Serialize for Estimate<'_> {
         }
         map.serialize_entry("interval", &found.interval)?;
         map.serialize_entry("interval_kind", &found.interval_in_words())?;
-        map.serialize_entry("proven", &(found.interval_kind == IntervalKind::Proven))?;
-        map.serialize_entry("certified", &integrated.map_or(proven.is_some(), |counts| counts.undecided == 0))?;
+        let is_enclosed = found.interval_kind == IntervalKind::Proven;
+        map.serialize_entry("proven", &is_enclosed)?;
+        let counts_are_proven = integrated.map_or(proven.is_some(), |counts| counts.undecided == 0);
+        map.serialize_entry("certified", &(is_enclosed || counts_are_proven))?;
         if let Some(proven) = proven {
             let names = ["f64", "double_double", "multiprecision"];
             map.serialize_entry("proven_by", &ByStage(names.into_iter().zip(STAGES).collect(), &proven))?;

@@ -1,5 +1,5 @@
 from collections.abc import Sequence
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, SupportsFloat, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -18,10 +18,12 @@ __all__ = [
     "count",
     "estimate_by_accuracy",
     "estimate_by_solver",
+    "in_si",
     "intervals",
     "inverse",
     "land",
     "margins",
+    "number",
     "numbers",
     "plan",
     "rate_of_precession",
@@ -30,6 +32,7 @@ __all__ = [
     "spaces",
     "tally",
     "trace",
+    "unit_of",
     "wobble",
 ]
 
@@ -37,9 +40,11 @@ __version__: str
 
 _Column: TypeAlias = npt.NDArray[np.float64]
 _Columns: TypeAlias = tuple[_Column, ...]
-_Axis: TypeAlias = float | Sequence[float] | npt.NDArray[np.float64] | str
+_Quantity: TypeAlias = SupportsFloat | str
+_Axis: TypeAlias = _Quantity | Sequence[_Quantity] | npt.NDArray[np.float64]
 _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
-_Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+_Vector: TypeAlias = Sequence[_Quantity] | npt.NDArray[np.float64]
+_Seed: TypeAlias = int | np.random.Generator | np.random.SeedSequence
 _Fields: TypeAlias = dict[str, Any]
 """The arguments of the result of the same name in the modules beside this one."""
 
@@ -48,7 +53,7 @@ class Body:
     @staticmethod
     def named(name: str) -> Body: ...
     @staticmethod
-    def cylinder(mass: float, radius: float, thickness: float) -> Body: ...
+    def cylinder(mass: _Quantity, radius: _Quantity, thickness: _Quantity) -> Body: ...
     @staticmethod
     def from_moments(moments: _Vector) -> Body: ...
     @staticmethod
@@ -74,11 +79,11 @@ class Toss:
         cls,
         rate: _Vector,
         *,
-        speed: float | None = None,
-        time: float | None = None,
-        gravity: float | None = None,
-        drop: float | None = None,
-        tilt: float | None = None,
+        speed: _Quantity | None = None,
+        time: _Quantity | None = None,
+        gravity: _Quantity | None = None,
+        drop: _Quantity | None = None,
+        tilt: _Quantity | None = None,
         attitude: _Quaternion | None = None,
         body: str | Body | None = None,
     ) -> Toss: ...
@@ -105,7 +110,7 @@ class Solver:
         *,
         scheme: str | None = None,
         rtol: float | None = None,
-        step: float | None = None,
+        step: _Quantity | None = None,
         formulation: str | None = None,
     ) -> Solver: ...
     @property
@@ -129,7 +134,7 @@ class Batch:
         cls,
         body: str | Body,
         *,
-        gravity: float,
+        gravity: float | None,
         drop: float | None,
         tilt: float | None,
         attitude: _Quaternion | npt.NDArray[np.generic] | None,
@@ -156,7 +161,7 @@ class Space:
         speed: _Axis,
         gravity: _Axis | None = None,
         tilt: _Axis | None = None,
-        drop: float | None = None,
+        drop: _Quantity | None = None,
         body: str | Body | None = None,
     ) -> Space: ...
     @staticmethod
@@ -175,15 +180,16 @@ class Plan:
     @staticmethod
     def grid() -> Plan: ...
     @staticmethod
-    def random(points: int, *, seed: int = 1) -> Plan: ...
+    def random(points: int | None = None, *, seed: _Seed = ...) -> Plan: ...
     @staticmethod
-    def sobol(points: int, *, scrambles: int = ..., seed: int = 1) -> Plan: ...
+    def sobol(points: int | None = None, *, scrambles: int = ..., seed: _Seed = ...) -> Plan: ...
     @staticmethod
-    def exact_speed(points: int | None = None, *, scrambles: int = ..., seed: int = 1) -> Plan: ...
+    def exact_speed(points: int | None = None, *, scrambles: int = ..., seed: _Seed = ...) -> Plan: ...
     @staticmethod
-    def enclosure(accuracy: float = 1e-6) -> Plan: ...
+    def enclosure(accuracy: float | None = None) -> Plan: ...
     @property
     def method(self) -> str: ...
+    def of(self, space: Space) -> Plan: ...
     def points(self, space: Space) -> int: ...
     def to_json(self) -> str: ...
     @staticmethod
@@ -211,7 +217,10 @@ class Tally:
     def __ne__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]: ...
 
+def number(field: str, value: object) -> float: ...
 def numbers(field: str, values: object) -> _Column: ...
+def unit_of(field: str) -> tuple[str, str]: ...
+def in_si(field: str, unit: str, numbers: _Column) -> _Column | None: ...
 def count(field: str, value: object) -> int: ...
 def bodies() -> list[tuple[str, str]]: ...
 def solvers() -> list[tuple[str, str, list[str], list[str]]]: ...
@@ -220,10 +229,10 @@ def land(toss: Toss, solver: str | Solver) -> _Fields: ...
 def margins(toss: Toss) -> _Fields: ...
 def intervals(toss: Toss, slowest: float) -> list[list[float]]: ...
 def inverse(probability: float, body: str | Body) -> tuple[float, float, float]: ...
-def rate_of_precession(turn: float, wobble: float, body: str | Body) -> tuple[float, float, float]: ...
+def rate_of_precession(turn: _Quantity, wobble: _Quantity, body: str | Body) -> tuple[float, float, float]: ...
 def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body) -> _Fields: ...
 def trace(
-    toss: Toss, points: int | None, dt: float | None, solver: str | Solver
+    toss: Toss, points: int | None, dt: _Quantity | None, solver: str | Solver
 ) -> npt.NDArray[np.float64]: ...
 def solve(
     toss: Toss, times: _Column, solver: str | Solver
@@ -238,4 +247,4 @@ def plan(
 ) -> _Fields: ...
 def tally(space: Space, plan: Plan, start: int, end: int, threads: int | None) -> Tally: ...
 def estimate_by_solver(space: Space, plan: Plan, solver: str | Solver, threads: int | None) -> _Fields: ...
-def estimate_by_accuracy(space: Space, accuracy: float, threads: int | None) -> _Fields: ...
+def estimate_by_accuracy(space: Space, accuracy: float | None, threads: int | None) -> _Fields: ...

@@ -61,7 +61,7 @@ def cos_tilt(
     attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
     out: npt.NDArray[np.float64] | None = None,
 ) -> npt.NDArray[np.float64]:
     """cos θ at landing, with θ the angle between the normal and the vertical; heads is up where it is above 0.
@@ -70,7 +70,9 @@ def cos_tilt(
     ----------
     rate_x, rate_y, rate_z : array_like
         Angular velocity at launch in rad/s, along the axes of the body. These columns and the next broadcast against
-        each other; contiguous ones of float64 are read in place.
+        each other; contiguous ones of float64 are read in place. Columns of pint, astropy or unyt are converted to SI
+        units, and so are those of xarray and pandas with ``attrs["units"]``; a single quantity may be a text with a unit,
+        such as ``"38rev/s"``.
     speed : array_like, optional
         Upward speed at launch in m/s.
     time : array_like, optional
@@ -92,7 +94,8 @@ def cos_tilt(
         By default, many coins at once are solved in the processor's vector registers, with an error of at most 6e-16.
         ``"exact"`` is the exact motion to an ulp, toss by toss; other names are those of integrators.
     threads : int, optional
-        Number of threads; None for one per core. It does not change a bit of the result.
+        Number of threads; by default one per core, and a single one for columns that it solves at once. It does not
+        change a bit of the result.
     out : ndarray of float64, optional
         Array for the result, of the broadcast shape. After an exception its content is unspecified.
 
@@ -131,7 +134,7 @@ def outcome(
     attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
     out: npt.NDArray[np.int8] | None = None,
 ) -> npt.NDArray[np.int8]:
     """Heads or tails of many launches.
@@ -173,7 +176,7 @@ def attitude(
     attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
     out: npt.NDArray[np.float64] | None = None,
 ) -> npt.NDArray[np.float64]:
     """Attitude at landing of many launches.
@@ -213,7 +216,7 @@ def count(
     attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
 ) -> Counts:
     """Counts of heads and tails of many launches, without an array of results.
 

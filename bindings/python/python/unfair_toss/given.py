@@ -65,6 +65,16 @@ def an(kind: type[_Kind], field: str, value: object) -> _Kind:
     raise wrong(field, value, f"a {kind.__name__}")
 
 
+def seed(value: Any) -> Any:
+    """The whole number that a generator of NumPy draws as a seed, or that a sequence of seeds has first; else the value."""
+    random = sys.modules.get("numpy.random")
+    if random is not None and isinstance(value, random.Generator):
+        return int(value.integers(2**63))
+    if random is not None and isinstance(value, random.SeedSequence):
+        return int(value.generate_state(1, "uint64")[0])
+    return value
+
+
 def a_function(field: str, value: object) -> None:
     """Refuses what is neither None nor can be called."""
     if value is not None and not callable(value):

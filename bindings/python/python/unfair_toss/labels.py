@@ -21,6 +21,8 @@ class Labels(NamedTuple):
     shape: tuple[int, ...]
     put_on: Callable[[Any], Any]
     """Puts the labels on a result, which may have the four components of an attitude as a further dimension."""
+    no_attitude: MalformedError | None = None
+    """Why an attitude cannot have the labels."""
 
 
 def combined(given: dict[str, Any]) -> tuple[dict[str, Any], Labels | None]:
@@ -75,7 +77,10 @@ def _of_xarray(xarray: Any, arrays: dict[str, Any]) -> tuple[dict[str, Any], Lab
             labelled = labelled.assign_coords(component=COMPONENTS)
         return labelled.assign_coords(same[0].coords)
 
-    return dict(zip(arrays, same, strict=True)), Labels(same[0].shape, put_on)
+    has_components = 'the dimension "component", which is that of the attitudes'
+    no_attitude = _differ(next(iter(arrays)), has_components, "dimensions with other names")
+    is_taken = "component" in same[0].dims
+    return dict(zip(arrays, same, strict=True)), Labels(same[0].shape, put_on, no_attitude if is_taken else None)
 
 
 def _of_pandas(pandas: Any, frames: dict[str, Any]) -> tuple[dict[str, Any], Labels]:
@@ -89,4 +94,6 @@ def _of_pandas(pandas: Any, frames: dict[str, Any]) -> tuple[dict[str, Any], Lab
             return pandas.Series(result, first.index)
         return pandas.DataFrame(result, first.index, first.columns if first.ndim == 2 else COMPONENTS)
 
-    return frames, Labels(first.shape, put_on)
+    rows_and_columns = "rows and columns, and no place for the four components of attitudes"
+    no_attitude = _differ(next(iter(frames)), rows_and_columns, "columns of one dimension, or an array")
+    return frames, Labels(first.shape, put_on, no_attitude if first.ndim == 2 else None)

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Batch, Body, Solver, numbers
+from ._native import Batch, Body, Solver, number, numbers
 from .errors import MalformedError
 from .given import wrong
 from .labels import combined, components
+from .units import PLAIN, plain
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -69,6 +70,8 @@ class Launches:
                 raise MalformedError(f"{name} has no effect with time", field=name, valid="None, or a speed")
             given |= {} if value is None else {name: value}
         one_attitude, attitudes = (None, {}) if attitude is None else _attitudes(attitude)
+        # Before columns are combined by their labels, which forgets their units.
+        given = {name: _without_unit(name, value) for name, value in given.items()}
         given, self.labels = combined(given | attitudes)
         read = {name: column(name.split(" ")[0], value) for name, value in given.items()}
         # What is the same for all launches is no column.
@@ -83,7 +86,7 @@ class Launches:
         self.size = math.prod(self.shape)
         self.batch = Batch(
             body,
-            gravity=one.get("gravity", 9.81),
+            gravity=one.get("gravity"),
             drop=one.get("drop"),
             tilt=one.get("tilt", 0.0 if varying[2] else None),
             attitude=(1.0, 0.0, 0.0, 0.0) if attitudes else one_attitude,
@@ -139,6 +142,8 @@ class Launches:
         width: tuple[int, ...] = (),
     ) -> npt.NDArray[_Result]:
         """The results of a kernel, in ``out`` if it is given; ``width`` is the shape of one of them."""
+        if width and self.labels is not None and self.labels.no_attitude is not None:
+            raise self.labels.no_attitude
         result, target = self._places(out, dtype, width)
         flat, numbers = target.reshape(-1), math.prod(width)
         for first, columns in self.blocks():
@@ -156,8 +161,9 @@ class Launches:
         if out is None:
             out = np.empty(shape, dtype)
             return out, out
-        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray):
-            raise MalformedError("out is no array of NumPy", field="out", valid="a numpy.ndarray")
+        has_unit = getattr(out, "unit", getattr(out, "units", None)) is not None
+        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or has_unit:
+            raise MalformedError("out is no array of NumPy without a mask and a unit", field="out", valid="a numpy.ndarray")
         if out.shape != shape or out.dtype != dtype:
             found, expected = f"{out.dtype} {out.shape}", f"{np.dtype(dtype)} {shape}"
             raise MalformedError(f"out is {found}, expected is {expected}", field="out", valid=expected)
@@ -177,7 +183,7 @@ def _attitudes(given: Any) -> tuple[npt.NDArray[np.generic] | None, dict[str, An
             given = given.as_quat(scalar_first=True)
         except TypeError:
             raise wrong("attitude", given, valid) from None
-    parts = components(given)
+    parts = components(_without_unit("attitude", given))
     if parts is None:
         read = column("attitude", given)
         if read.shape[-1:] != (4,):
@@ -199,13 +205,16 @@ def _plain(column: npt.NDArray[np.generic], shape: tuple[int, ...]) -> npt.NDArr
 
 
 def column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
-    """An argument as an array of numbers, in whatever type and layout it comes, by position."""
+    """An argument as an array of numbers in SI units, in whatever type and layout it comes, by position."""
     expected = "real numbers"
+    value = _without_unit(name, value)
     to_numpy = None if isinstance(value, type) else getattr(value, "to_numpy", None)
     if to_numpy is not None:
         value = to_numpy()
-    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
-        index = int(np.flatnonzero(np.ma.getmaskarray(value))[0]) if value.ndim else None
+    # Of NumPy and of astropy, which have classes of their own.
+    mask = getattr(value, "mask", False) if isinstance(value, np.ndarray) else False
+    if np.any(mask):
+        index = int(np.flatnonzero(mask)[0]) if np.ndim(mask) else None
         raise MalformedError(f"{name} has masked elements", field=name, index=index, valid=expected)
     try:
         is_plain = _is_plain(value)
@@ -222,15 +231,21 @@ def column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
     return array
 
 
-_PLAIN = {float, int, np.float64, np.float32, np.int64, np.int32}
-"""Types of numbers that NumPy reads as they are."""
+def _without_unit(name: str, value: Any) -> Any:
+    """An argument in SI units: a number of a text that has a unit, or what a value with a unit holds."""
+    if isinstance(value, str):
+        return number(name, value)
+    try:
+        return plain(name, value)
+    except RecursionError as error:
+        raise MalformedError(f"{name}: {error}", field=name, valid="real numbers") from None
 
 
 def _is_plain(value: object) -> bool:
     """Whether NumPy reads a column as it is: an array, a number, or lists of these. Masks are refused inside of lists."""
     if isinstance(value, list | tuple):
-        return set(map(type, value)) <= _PLAIN or all([_is_element(element) for element in value])
-    return isinstance(value, np.ndarray | np.generic) or type(value) in _PLAIN
+        return set(map(type, value)) <= PLAIN or all([_is_element(element) for element in value])
+    return isinstance(value, np.ndarray | np.generic) or type(value) in PLAIN
 
 
 def _is_element(value: object) -> bool:

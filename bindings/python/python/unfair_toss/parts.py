@@ -20,8 +20,15 @@ _LAUNCHES = 10**9
 _FEWEST = 8
 """Fewest parts by default, so that several workers have something to do."""
 
+_RETRIES = 3
+"""How often a part is computed again by default."""
+
 _AHEAD = 64
 """Parts that are handed to an executor at a time, so that a plan of many parts needs little memory."""
+
+
+_WAY_OUT = "remove it to compute it"
+"""What helps against a file that holds no part."""
 
 
 def compute(space: Space, plan: Plan, start: int, end: int, threads: int | None) -> Tally:
@@ -40,10 +47,10 @@ class Parts:
         folder: str | os.PathLike[str] | None,
         threads: int | None,
         executor: Executor | Callable[[], Any] | None,
-        retries: int,
+        retries: int | None,
         progress: Callable[[int, int], object] | None,
     ) -> None:
-        self.space, self.plan = space, plan
+        self.space, self.plan = space, plan.of(space)
         self.points = plan.points(space)
         fewest = min(max(_FEWEST, -(-self.points // _LAUNCHES)), self.points)
         self.shards = fewest if shards is None else count("shards", shards)
@@ -55,7 +62,8 @@ class Parts:
         except TypeError:
             raise wrong("folder", folder, "a path") from None
         self.threads = threads if executor is None or threads is not None else 1
-        self.executor, self.retries, self.progress = executor, retries, progress
+        self.executor, self.progress = executor, progress
+        self.retries = _RETRIES if retries is None else retries
         self.done = 0
 
     def range(self, shard: int) -> tuple[int, int]:
@@ -90,15 +98,17 @@ class Parts:
         if path is None or not path.exists():
             return None
         try:
-            part = Tally.from_json(path.read_text(encoding="utf-8"))
+            part = Tally.from_json(path.read_text(encoding="utf-8-sig"))
+        except UnicodeDecodeError:
+            raise PartError(f"{path}: it is no text in UTF-8; {_WAY_OUT}", field="folder") from None
         except InputError as error:
-            raise PartError(f"{path}: {error}; remove it to compute it", field="folder") from None
-        return self.checked(shard, part, str(path))
+            raise PartError(f"{path}: {error}; {_WAY_OUT}", field="folder") from None
+        return self.checked(shard, part, str(path), f"; {_WAY_OUT}, or keep this plan in another folder")
 
-    def checked(self, shard: int, part: Tally, source: str) -> Tally:
+    def checked(self, shard: int, part: Tally, source: str, way_out: str = "") -> Tally:
         """The part, if it is the one that it should be."""
         if (part.space, part.plan, part.range) != (self.space, self.plan, self.range(shard)):
-            message = f"{source}: it holds another part than number {shard + 1} of {self.shards} of this plan"
+            message = f"{source}: it holds another part than number {shard + 1} of {self.shards} of this plan{way_out}"
             raise PartError(message, field="parts", valid="this part")
         return part
 
@@ -176,14 +186,14 @@ class _Run:
 
 
 def _write_whole(path: Path, text: str) -> None:
-    """Writes a file whole, or leaves what was there. Whom the umask lets read a new file may read it."""
-    new = path.with_name(f".{path.name}.{secrets.token_hex(8)}")
+    """Writes a file whole, or leaves what was there. Others may read it where the umask allows it."""
+    unfinished = path.with_name(f".{path.name}-{os.getpid()}-{secrets.token_hex(4)}")
     try:
-        with open(new, "x", encoding="utf-8") as file:
+        with open(unfinished, "x", encoding="utf-8") as file:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(new, path)
+        os.replace(unfinished, path)
     except BaseException:
-        new.unlink(missing_ok=True)
+        unfinished.unlink(missing_ok=True)
         raise

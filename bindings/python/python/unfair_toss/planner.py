@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from . import _native
-from ._native import Space, Toss
+from ._native import Plan, Space, Toss
+from .errors import MalformedError
+from .given import wrong
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,8 @@ class Choice:
         Of what is wanted.
     expected_cost_ns : float
         In ns, on one core.
+    plan : Plan or None
+        The launches of a sample, for ``probability``. Functions that take a Plan take the choice itself, too.
     passed_over : tuple of (str, str)
         The models that were passed over, each with the reason.
     """
@@ -43,7 +47,21 @@ class Choice:
     points: int | None
     expected_error: float
     expected_cost_ns: float
+    plan: Plan | None
     passed_over: tuple[tuple[str, str], ...]
+
+
+def plan_of(given: Any) -> Plan:
+    """The plan that an argument is, or that a choice has."""
+    if isinstance(given, Plan):
+        return given
+    valid = "a Plan, or a Choice of launches"
+    if not isinstance(given, Choice):
+        raise wrong("plan", given, valid)
+    if given.plan is None:
+        message = f"plan is a Choice of the model {given.model}, which tries no launches: expected {valid}"
+        raise MalformedError(message, field="plan", valid=valid)
+    return given.plan
 
 
 def plan(

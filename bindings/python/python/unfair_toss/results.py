@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
@@ -45,6 +46,7 @@ class _Flight:
     """What a flight over the times ``t`` becomes with pandas, xarray and matplotlib."""
 
     t: npt.NDArray[np.float64]
+    fastest_turn: float
 
     def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
         """``cos_tilt`` and other numbers of shape (n,), vectors (n, 3) and quaternions (n, 4), by their names."""
@@ -78,15 +80,35 @@ class _Flight:
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes.
 
-        Fewer than twenty times are drawn as points, because a line between them would be no flight."""
+        It draws points without a line between them if the body may turn by more than a quarter from one time to the next,
+        and for fewer than twenty times."""
         if ax is None:
             import matplotlib.pyplot as plt
 
             ax = plt.gca()
-        ax.plot(self.t, self._parts()["cos_tilt"], "o" if self.t.size < 20 else "-")
+        turn = self.fastest_turn * float(np.max(np.diff(self.t), initial=0.0))
+        ax.plot(self.t, self._parts()["cos_tilt"], "o" if self.t.size < 20 else "." if turn > np.pi / 2 else "-")
         ax.axhline(0.0, color="0.6", linewidth=0.8)
         ax.set(xlabel="time after launch (s)", ylabel="cos θ (heads above 0)", ylim=(-1.05, 1.05))
         return ax
+
+
+def fastest_turn(toss: Toss) -> float:
+    """How fast a toss turns at most, in rad/s: the rate S/I1 of the normal of a coin about its angular momentum S; of any
+    other body the larger one of its rate and of S over its middle moment."""
+    tensor, rate = np.array(toss.body.tensor), np.array(toss.rate)
+    momentum = tensor @ rate
+    energy, square = float(rate @ momentum), float(momentum @ momentum)
+    if toss.body.is_symmetric:
+        return float(np.sqrt(square) / tensor[0, 0]) if square else 0.0
+    moments = toss.body.principal_moments
+    fastest = max(float(rate @ rate), square / moments[1] ** 2)
+    # Of all rates with this energy and momentum, the fastest ones have no part along one of the principal axes.
+    for one, two in itertools.combinations(moments, 2):
+        if 0.0 < one < two:
+            parts = (two * energy - square) / (one * (two - one)), (square - one * energy) / (two * (two - one))
+            fastest = max(fastest, sum(parts) if min(parts) >= 0.0 else 0.0)
+    return float(np.sqrt(fastest))
 
 
 class _HoldsArrays:
@@ -220,13 +242,16 @@ class Trace(ShownAsTable, _Flight, _HoldsArrays):
     attitude : ndarray of shape (n, 4)
         Unit quaternions (w, x, y, z) from the body to the laboratory.
     angles : ndarray of shape (n, 3)
-        Euler angles α, β, γ (z-x-z) in rad, continuous over the flight.
+        Euler angles α, β, γ (intrinsic z-x'-z'', SciPy's ``"ZXZ"``) in rad, continuous over the flight.
     normal : ndarray of shape (n, 3)
         The normal, a unit vector in the laboratory whose z axis is up.
     face : ndarray of shape (n, 3)
         The body's x axis, in the same axes.
     cos_tilt : ndarray of shape (n,)
         cos θ.
+    fastest_turn : float
+        How fast it turns at most, in rad/s: the rate S/I1 of the normal of a coin about its angular momentum S; of any
+        other body the larger one of its rate and of S over its middle moment.
     """
 
     t: npt.NDArray[np.float64]
@@ -235,6 +260,7 @@ class Trace(ShownAsTable, _Flight, _HoldsArrays):
     normal: npt.NDArray[np.float64]
     face: npt.NDArray[np.float64]
     cos_tilt: npt.NDArray[np.float64]
+    fastest_turn: float = 0.0
 
     def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
         names = ("cos_tilt", "attitude", "normal", "face")
@@ -396,6 +422,8 @@ class Solution(ShownAsTable, _Flight, _HoldsArrays):
         In words.
     sol : DenseOutput or None
         The flight at any other time; with ``dense_output=True``.
+    fastest_turn : float
+        As of a ``Trace``.
     """
 
     t: npt.NDArray[np.float64]
@@ -407,6 +435,7 @@ class Solution(ShownAsTable, _Flight, _HoldsArrays):
     status: int = 0
     message: str = "The solver reached the landing or the last time."
     sol: DenseOutput | None = None
+    fastest_turn: float = 0.0
 
     @property
     def attitude(self) -> npt.NDArray[np.float64]:

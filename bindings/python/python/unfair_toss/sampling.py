@@ -11,6 +11,7 @@ from . import _native
 from ._native import Plan, Solver, Space, Tally, count
 from .errors import MalformedError, PartError
 from .given import a_function, an, wrong
+from .planner import Choice, plan_of
 from .results import ShownAsTable
 from .tallies import tally
 
@@ -35,7 +36,8 @@ class Estimate(ShownAsTable):
     heads, tails, undecided : int or None
         Numbers of launches by their outcome; None with exact-speed, which counts none.
     certified : bool
-        Whether every outcome is proven. Counts that came through a file or another process no longer are.
+        Whether the answer is proven: every outcome of the counts, or the interval with enclosure. Counts that came through a
+        file or another process no longer are.
     proven_by : dict of str to int, or None
         The number of outcomes that each stage of the proof decided.
     plan : Plan
@@ -128,7 +130,7 @@ def estimate(whole: Tally) -> Estimate:
 
 def probability(
     space: Space,
-    plan: Plan | None = None,
+    plan: Plan | Choice | None = None,
     *,
     accuracy: float | None = None,
     solver: str | Solver | None = None,
@@ -137,7 +139,7 @@ def probability(
     executor: Executor | Callable[[], Any] | None = None,
     shards: int | None = None,
     folder: str | PathLike[str] | None = None,
-    retries: int = 3,
+    retries: int | None = None,
 ) -> Estimate:
     """The probability of heads over a space of launches.
 
@@ -145,10 +147,10 @@ def probability(
     ----------
     space : Space
         The distribution of the launches.
-    plan : Plan, optional
+    plan : Plan or Choice, optional
         Which of them are tried; by default, the cheapest that serves for ``accuracy``.
     accuracy : float, optional
-        Largest acceptable error if no plan is given; 1e-4 by default.
+        Largest acceptable error if no plan is given; 1e-4 by default, 1e-3 for a body that is not symmetric.
     solver : str or Solver, optional
         What decides the outcomes; by default the exact motion, which proves them. It needs a plan, and has no parts.
     threads : int, optional
@@ -163,8 +165,8 @@ def probability(
     folder : path, optional
         Where each part is kept as a file, as ``unfair-toss probability --shard`` writes it. A part that is there is not
         computed again; a file that holds another part is refused.
-    retries : int
-        How often a part is computed again if its worker fails.
+    retries : int, optional
+        How often a part is computed again if its worker fails; 3 by default. It needs an executor.
 
     Returns
     -------
@@ -180,15 +182,17 @@ def probability(
     """
     an(Space, "space", space)
     a_function("progress", progress)
-    retries = count("retries", retries)
+    retries = None if retries is None else count("retries", retries)
     if executor is not None and not hasattr(executor, "submit") and not callable(executor):
         raise wrong("executor", executor, "an executor, or what makes one")
+    if retries is not None and executor is None:
+        raise MalformedError("retries has no effect without an executor", field="retries", valid="None, or an executor")
     parted = executor is not None or shards is not None or folder is not None
     if plan is None:
         if parted or solver is not None:
             raise MalformedError("a plan is needed for parts and for a solver", field="plan", valid="a Plan")
-        return _planned(space, 1e-4 if accuracy is None else accuracy, threads, progress)
-    an(Plan, "plan", plan)
+        return _planned(space, accuracy, threads, progress)
+    plan = plan_of(plan)
     if accuracy is not None:
         raise MalformedError("accuracy has no effect with a plan", field="accuracy", valid="None, or no plan")
     if solver is not None:
@@ -207,7 +211,7 @@ def probability(
 
 
 def _planned(
-    space: Space, accuracy: float, threads: int | None, progress: Callable[[int, int], object] | None
+    space: Space, accuracy: float | None, threads: int | None, progress: Callable[[int, int], object] | None
 ) -> Estimate:
     if progress is not None:
         raise MalformedError("progress needs a plan", field="progress", valid="None, or a Plan")

@@ -8,7 +8,8 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .labels import combined
-from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work
+from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work, fastest_turn
+from .units import Quantity
 
 
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
@@ -57,15 +58,15 @@ def margins(toss: Toss) -> Margins:
     return Margins(**_native.margins(toss))
 
 
-def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
+def intervals(toss: Toss, slowest: Quantity = 0.0) -> Intervals:
     """The speeds from ``slowest`` to that of a toss with which it lands heads.
 
     Parameters
     ----------
     toss : Toss
         The toss of any body with the fastest speed.
-    slowest : float
-        The slowest speed in m/s.
+    slowest : float or str
+        The slowest speed in m/s, or as in ``"2m/s"``.
 
     Returns
     -------
@@ -80,14 +81,15 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     errors.SolveError
         If the motion of a body that is not symmetric stays too near to its edge to be searched.
     """
-    heads = np.array(_native.intervals(toss, slowest), dtype=np.float64).reshape(-1, 2)
+    lowest = _native.number("slowest", slowest)
+    heads = np.array(_native.intervals(toss, lowest), dtype=np.float64).reshape(-1, 2)
     length = sum((fast - slow for slow, fast in heads.tolist()), 0.0)
     assert toss.speed is not None
-    return Intervals(heads, min(length / (toss.speed - float(slowest)), 1.0))
+    return Intervals(heads, min(length / (toss.speed - lowest), 1.0))
 
 
 def trace(
-    toss: Toss, points: int | None = None, *, dt: float | None = None, solver: str | Solver = "exact"
+    toss: Toss, points: int | None = None, *, dt: Quantity | None = None, solver: str | Solver = "exact"
 ) -> Trace:
     """The flight of a coin or another body at equally spaced times, launch and landing included.
 
@@ -96,9 +98,9 @@ def trace(
     toss : Toss
         The toss.
     points : int, optional
-        Number of times, from 2 to 1000000; this or ``dt`` is needed.
-    dt : float, optional
-        Step of time in s; the last time is the landing.
+        Number of times, from 2 to 1000000; 101 by default, without ``dt``.
+    dt : float or str, optional
+        Step of time in s or as in ``"50ms"``; the last time is the landing.
     solver : str or Solver
         The exact motion, or an integrator (``solvers()``).
 
@@ -118,7 +120,7 @@ def trace(
     t, attitude, angles, normal, face, cos_tilt = (
         np.ascontiguousarray(part) for part in np.split(rows, [1, 5, 8, 11, 14], axis=1)
     )
-    return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0])
+    return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0], fastest_turn(toss))
 
 
 def inverse(probability: float, body: str | Body = "paper") -> Inverse:
@@ -141,19 +143,19 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     errors.InputError
         For a probability outside its range, and for a body that is not symmetric.
     """
-    found = _native.inverse(probability, body)
-    return Inverse(float(probability), *found)
+    wanted = _native.number("probability", probability)
+    return Inverse(wanted, *_native.inverse(wanted, body))
 
 
-def rate_of_precession(turn: float, wobble: float, body: str | Body = "paper") -> tuple[float, float, float]:
+def rate_of_precession(turn: Quantity, wobble: Quantity, body: str | Body = "paper") -> tuple[float, float, float]:
     """The angular velocity of a coin by what can be seen: how fast it turns, and how far it wobbles.
 
     Parameters
     ----------
-    turn : float
-        How fast the normal goes round the angular momentum, in rad/s.
-    wobble : float
-        The angle ψ between the two, from 0 to π.
+    turn : float or str
+        How fast the normal goes round the angular momentum, in rad/s or as in ``"38rev/s"``.
+    wobble : float or str
+        The angle ψ between the two, from 0 to π, in rad or as in ``"81deg"``.
     body : str or Body
         A symmetric body.
 

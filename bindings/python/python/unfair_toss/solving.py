@@ -12,7 +12,8 @@ from ._native import Solver, Toss, numbers
 from .errors import InputError, MalformedError, OutOfRangeError
 from .given import an, wrong
 from .launches import column
-from .results import DenseOutput, Solution, Work
+from .results import DenseOutput, Solution, Work, fastest_turn
+from .units import Quantity
 
 
 def solve(
@@ -24,7 +25,7 @@ def solve(
     scheme: str | None = None,
     rtol: float | None = None,
     atol: float | None = None,
-    step: float | None = None,
+    step: Quantity | None = None,
     formulation: str | None = None,
     dense_output: bool = False,
 ) -> Solution:
@@ -84,7 +85,8 @@ def solve(
     if not isinstance(dense_output, bool):
         raise wrong("dense_output", dense_output, "True or False")
     sol = DenseOutput(toss, solver) if dense_output else None
-    return Solution(times, y, work["rhs_calls"], Work(**work), estimate, sol=sol)
+    turn = fastest_turn(toss)
+    return Solution(times, y, work["rhs_calls"], Work(**work), estimate, sol=sol, fastest_turn=turn)
 
 
 _SCIPY = {"rk45": "dopri5"}

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable
 from . import _native
 from ._native import Plan, Space, Tally, count
 from .errors import MalformedError
-from .given import a_function, an, wrong
+from .given import a_function, wrong
+from .planner import Choice, plan_of
 
 _SLICE = 1 << 28
 """Launches between two reports of progress: some tenths of a second."""
@@ -16,7 +17,7 @@ _SLICE = 1 << 28
 
 def tally(
     space: Space,
-    plan: Plan,
+    plan: Plan | Choice,
     range: tuple[int, int] | range | None = None,
     *,
     threads: int | None = None,
@@ -28,7 +29,7 @@ def tally(
     ----------
     space : Space
         The distribution of the launches.
-    plan : Plan
+    plan : Plan or Choice
         Which of them are tried.
     range : tuple of 2 ints or range, optional
         The numbers of the launches: the first one, and the one after the last; all of them by default.
@@ -48,7 +49,8 @@ def tally(
         For a range beyond the launches of the plan, and for a plan that does not fit the space.
     """
     a_function("progress", progress)
-    start, end = _ends(range, an(Plan, "plan", plan).points(space))
+    plan = plan_of(plan)
+    start, end = _ends(range, plan.points(space))
     whole: Tally | None = None
     for first in _starts(start, end):
         part = _native.tally(space, plan, first, min(first + _SLICE, end), threads)

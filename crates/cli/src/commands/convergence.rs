@@ -4,6 +4,7 @@
 
 use sampling::{RunningStep, Sampler};
 use toss::Registry;
+use toss::defaults::SEED;
 
 use crate::failure::Failure;
 use crate::output::{Input, SeriesArgs};
@@ -23,7 +24,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=1_000_000))]
     steps: Option<u64>,
     /// Seed of the random launches, which are as many as the grid has
-    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
+    #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

@@ -5,6 +5,7 @@
 use sampling::{LongFlightShare, Sampler};
 use serde::Serialize;
 use toss::Registry;
+use toss::defaults::SEED;
 
 use crate::chart;
 use crate::failure::Failure;
@@ -23,7 +24,7 @@ pub(crate) struct Args {
           value_parser = quantity::count::<u64>(1..=u64::MAX))]
     points: u64,
     /// Seed of the random speeds
-    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
+    #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

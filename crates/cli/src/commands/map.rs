@@ -3,6 +3,7 @@
 
 use sampling::{Coordinate, Map, Method, Node, Plan, Sampler, Space, map_nodes};
 use serde::Serialize;
+use toss::defaults::LAUNCHES_OF_A_NODE;
 use toss::{InputError, Registry};
 
 use crate::chart;
@@ -10,10 +11,7 @@ use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{Defaults, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
-
-/// The numbers of launches at each node.
-const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: None };
+use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -47,7 +45,7 @@ impl Args {
         self.space.require_free_rates(axes)?;
         let nodes = map_nodes(&space, axes)?;
         let node = first_node(&space, axes)?;
-        let plan = self.plan.plan(self.method, &node, DEFAULTS)?;
+        let plan = self.plan.plan(self.method, None, &node, LAUNCHES_OF_A_NODE)?;
         self.space.require_grid_where_points_are(&space, |of| axes.contains(&of) || lays_grid(plan, of))?;
         require_few(&backend.sampler(), nodes.saturating_mul(launches_of(plan, &node)?))?;
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);

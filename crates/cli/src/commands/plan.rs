@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use toss::defaults::PLANNED_POINTS;
 use toss::planner::{Decision, Integrator, Nanoseconds, WantKind};
 use toss::trace::MOST_POINTS;
 use toss::{QuaternionSolver, Registry, Scene, Want};
@@ -12,9 +13,6 @@ use crate::output::{self, FormatArgs, Input, row, table};
 use crate::quantity;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
-
-/// Points of a trace for which no number is given.
-const DEFAULT_POINTS: usize = 100;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -27,9 +25,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene",
           value_parser = quantity::tolerance)]
     accuracy: Option<f64>,
-    /// Number of times in a trace, launch and landing included [default: 100]
     #[arg(long, value_name = "N", allow_hyphen_values = true,
-          value_parser = quantity::count::<usize>(2..=MOST_POINTS as u64))]
+          value_parser = quantity::count::<usize>(2..=MOST_POINTS as u64),
+          help = format!("Number of times in a trace, launch and landing included [default: {PLANNED_POINTS}]"))]
     points: Option<usize>,
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml
@@ -83,7 +81,7 @@ impl Args {
             Some(WantKind::Tilt) => Want::Tilt(self.toss.toss()?),
             Some(WantKind::Attitude) => Want::Attitude(self.toss.toss()?),
             Some(WantKind::Trace) | None => {
-                Want::Trace { toss: self.toss.toss()?, points: self.points.unwrap_or(DEFAULT_POINTS) }
+                Want::Trace { toss: self.toss.toss()?, points: self.points.unwrap_or(PLANNED_POINTS) }
             }
         };
         let solver = self.solver.clone().or_else(|| self.prove.then(|| QuaternionSolver::NAME.to_owned()));

@@ -2,6 +2,7 @@
 //! interval of the estimate with it, as far as the method has one.
 
 use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
+use toss::defaults::{self, ACCURACY, ACCURACY_OF_BODIES, LAUNCHES};
 use toss::solvers::Proving;
 use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
 
@@ -11,14 +12,7 @@ use crate::failure::Failure;
 use crate::output::{Format, FormatArgs, Input};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{Defaults, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
-
-/// Largest error if neither a method nor an accuracy is given.
-const DEFAULT_ACCURACY: f64 = 1e-4;
-/// The same for bodies with I1 ≠ I2, which have no closed form of the share over a speed.
-const DEFAULT_ACCURACY_OF_BODIES: f64 = 1e-3;
-
-const DEFAULTS: Defaults = Defaults { random: 250_000, sobol: 1 << 18, accuracy: None };
+use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -27,10 +21,8 @@ pub(crate) struct Args {
     /// How launches are chosen [default: the cheapest one that serves, with as many launches as it takes]
     #[arg(long, value_parser = quantity::method(&Method::ALL))]
     method: Option<Method>,
-    /// Largest acceptable error of the probability, if no method is given [default: 1e-4, and 1e-3 for a body with
-    /// I1 ≠ I2], or of enclosure [default: 1e-10, 1e-6
-    /// or 1e-3 with one, two or three coordinates beside the speed]
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = quantity::fraction)]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = quantity::fraction,
+          help = help_of_accuracy())]
     accuracy: Option<f64>,
     #[command(flatten)]
     plan: PlanArgs,
@@ -45,6 +37,14 @@ pub(crate) struct Args {
     shard: ShardArgs,
     #[command(flatten)]
     format: FormatArgs,
+}
+
+fn help_of_accuracy() -> String {
+    format!(
+        "Largest acceptable error of the probability, if no method is given [default: {ACCURACY:e}, and \
+         {ACCURACY_OF_BODIES:e} for a body with I1 ≠ I2], or of enclosure [default: 1e-10, 1e-6 or 1e-3 with one, two or \
+         three coordinates beside the speed]"
+    )
 }
 
 impl Args {
@@ -100,7 +100,7 @@ impl Args {
                 "--accuracy can't be used with this --method: it is for enclosure, or chooses the method itself";
             return Err(Failure::usage("accuracy", message));
         }
-        let plan = self.plan.plan(method, space, Defaults { accuracy: self.accuracy, ..DEFAULTS })?;
+        let plan = self.plan.plan(method, self.accuracy, space, LAUNCHES)?;
         self.space.require_grid_where_points_are(space, |of| lays_grid(plan, of))?;
         Ok(plan)
     }
@@ -142,8 +142,7 @@ impl Args {
     }
 
     fn accuracy(&self, space: &Space) -> f64 {
-        let default = if space.coin().is_some() { DEFAULT_ACCURACY } else { DEFAULT_ACCURACY_OF_BODIES };
-        self.accuracy.unwrap_or(default)
+        self.accuracy.unwrap_or_else(|| defaults::accuracy(space))
     }
 }
 

@@ -13,6 +13,7 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
 use sampling::{Drawn, Method, Plan, Scrambled, Space};
 use serde::Serialize;
+use toss::defaults::SEED;
 use toss::{Backend, Body, Error, InputError, Registry, Toss, Verdict};
 use whole_file::{Row as Cells, Table, TableError};
 
@@ -47,8 +48,8 @@ pub(crate) struct Args {
     /// How launches are chosen, sobol with one scramble [default: random]
     #[arg(long, value_parser = quantity::method(&[Method::Grid, Method::Random, Method::Sobol]))]
     method: Option<Method>,
-    /// Seed of the random launches or of the scramble [default: 1]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed,
+          help = format!("Seed of the random launches or of the scramble [default: {SEED}]"))]
     seed: Option<u64>,
     #[command(flatten)]
     threads: ThreadArgs,
@@ -123,7 +124,7 @@ impl Args {
     }
 
     fn plan(&self) -> Result<Plan, Failure> {
-        let seed = self.seed.unwrap_or(1);
+        let seed = self.seed.unwrap_or(SEED);
         let points =
             || self.points.ok_or_else(|| Failure::usage("points", "--points N is needed, the number of launches"));
         match self.method.unwrap_or(Method::Random) {

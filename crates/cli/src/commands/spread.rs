@@ -7,6 +7,7 @@ use sampling::{
     SufficientSpread,
 };
 use serde::Serialize;
+use toss::defaults::SEED;
 use toss::{Error, Outcome};
 
 use crate::failure::Failure;
@@ -26,7 +27,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(8..=1 << 24))]
     points: Option<u64>,
     /// Seed of the scrambles
-    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
+    #[arg(long, value_name = "S", default_value_t = SEED, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

@@ -2,6 +2,7 @@
 //! laboratory frame, whose z axis points up.
 
 use serde::Serialize;
+use toss::defaults::TRACE_POINTS;
 use toss::quantity::Dimension;
 use toss::trace::{EnclosedPoint, MOST_POINTS, trace_enclosed, trace_enclosed_every, trace_every};
 use toss::{Registry, Solver, Toss, TracePoint, trace};
@@ -11,9 +12,6 @@ use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
-
-/// Points that are printed beside a chart if no number is given.
-const DEFAULT_POINTS: usize = 101;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -74,7 +72,7 @@ impl Args {
     /// The points, with their bounds if they are asked for.
     fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Point>, Failure> {
         // Who asks for a chart alone may not care for the number of points.
-        let points = self.points.or(self.series.has_chart().then_some(DEFAULT_POINTS));
+        let points = self.points.or(self.series.has_chart().then_some(TRACE_POINTS));
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
         if self.prove {
             let solver = self.flight.solver.prover(registry)?;
