@@ -122,10 +122,10 @@ mod tests {
             let texts = ["rate_x", "rate_y", "rate_z", "speed"].map(|name| Coordinate::named_in("axis", name).unwrap());
             texts.into_iter().zip([rate_x, "5", "1", "3:5"]).collect::<Vec<_>>()
         };
-        let coin = Space::parse(dynamics::Coin::PAPER.into(), &axes("0:9")).unwrap();
+        let coin = Space::parse(dynamics::Coin::PAPER, &axes("0:9")).unwrap();
         let book = dynamics::Body::from_listed_moments(&[1.0, 2.0, 2.5]).unwrap();
         let book = Space::parse(book, &axes("0:9")).unwrap();
-        let fixed = Space::parse(dynamics::Coin::PAPER.into(), &axes("7")).unwrap();
+        let fixed = Space::parse(dynamics::Coin::PAPER, &axes("7")).unwrap();
         let gridded = named_space("paper-fig4").unwrap();
         assert_eq!(usual(Method::Random, &coin), Plan::Random { points: 250_000, seed: 1 });
         assert_eq!(usual(Method::Random, &book), Plan::Random { points: 1 << 16, seed: 1 });
