@@ -153,7 +153,7 @@ fn a_scene_is_read_from_a_file() {
 
 /// The program with arguments that may hold blanks, and its message.
 fn said(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     stderr(&output)
 }
