@@ -33,10 +33,38 @@ export function withPoint(reason, text) {
 /** An angle in degrees. */
 export const degrees = (radians, digits = 4) => `${short((radians * 180) / Math.PI, digits)}°`;
 
-/** A probability in percent, with as many digits as `error` leaves. */
+/** The most decimal places of a percentage. */
+const MOST_PLACES = 12;
+
+/**
+ * A probability in percent, with as many digits as `error` leaves, and with more where it would be shown as 0 or 100
+ * without being certain.
+ */
 export function percent(part, error = 5e-5) {
-  const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(Math.max(error, 1e-9) * 100))));
-  return `${(100 * part).toFixed(digits)} %`;
+  const least = Math.max(0, Math.min(6, Math.ceil(-Math.log10(Math.max(error, 1e-9) * 100))));
+  if (part === 0 || part === 1) return `${fixed(part, 2, least)} %`;
+  for (let places = least; places <= MOST_PLACES; places++) {
+    const shown = fixed(part, 2, places);
+    if (Number(shown) !== 0 && Number(shown) !== 100) return `${shown} %`;
+  }
+  const end = 10n ** BigInt(MOST_PLACES);
+  return part < 0.5 ? `below ${point(1n, MOST_PLACES)} %` : `above ${point(100n * end - 1n, MOST_PLACES)} %`;
+}
+
+/** The decimal of a number ≥ 0 times 10^`power`, rounded once, half up, to so many decimal places. */
+function fixed(number, power, places) {
+  const [mantissa, exponent] = number.toExponential().split("e");
+  const [whole, fraction = ""] = mantissa.split(".");
+  const shift = Number(exponent) - fraction.length + power + places;
+  const digits = BigInt(whole + fraction);
+  const unit = 10n ** BigInt(Math.abs(shift));
+  return point(shift >= 0 ? digits * unit : (2n * digits + unit) / (2n * unit), places);
+}
+
+/** A whole number of units of the last decimal place. */
+function point(units, places) {
+  const text = String(units).padStart(places + 1, "0");
+  return places === 0 ? text : `${text.slice(0, -places)}.${text.slice(-places)}`;
 }
 
 /** A time in the unit that suits it. */

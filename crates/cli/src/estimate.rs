@@ -3,22 +3,24 @@
 use sampling::{Estimate, Found, Interval, IntervalKind};
 use toss::STAGES;
 
+use crate::quantity::{probability as shown, shortest};
+
 /// An estimate as text.
 pub(crate) fn text(found: &Estimate, solver: &str) -> String {
     let (probability, kind) = (found.probability, &found.interval_kind);
     let (probability, interval) = match (found.interval, found.half_width()) {
         _ if !found.is_known() => ("not known".to_owned(), format!("0 to 1 ({kind})")),
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
-            (probability.to_string(), format!("± {error:.1e} ({kind})"))
+            (shortest(probability), format!("± {error:.1e} ({kind})"))
         }
         (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
-            (format!("{probability:.0$}", digits_for(error)), format!("{lo} to {hi} ({kind})"))
+            (shown(probability, digits_for(error)), format!("{} to {} ({kind})", shortest(lo), shortest(hi)))
         }
         (Some(Interval { lo, hi }), Some(error)) => {
             let digits = digits_for(error);
-            (format!("{probability:.digits$}"), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
+            (shown(probability, digits), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
         }
-        _ => (format!("{probability:.6}"), kind.to_string()),
+        _ => (shown(probability, 6), kind.to_string()),
     };
     let launches = match found.found {
         Found::Counts(counts) => {

@@ -2,22 +2,45 @@
 //! options, an example, and what the words and columns of its answer mean. It is kept here in one table, so that all
 //! commands say it in the same way.
 
-use clap::Command;
+use clap::{Arg, Command};
 
-/// The groups of options, each with its heading and the names of its options.
-const GROUPS: [(&str, &str); 5] = [
-    (
-        "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
-        "coin cylinder moments inertia",
-    ),
-    (
-        "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
-        "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt attitude space spread drag bounce from scene",
-    ),
-    ("Solver", "solver scheme tolerance step formulation prove"),
-    ("Sampling", "method accuracy points seed steps replicates up_to reference across up threads heads shard"),
-    ("Output", "format margin out svg dt repeats want probability counts shell command"),
+/// A group of options.
+struct Group {
+    /// Its heading in `--help`, with how numbers are given.
+    heading: &'static str,
+    /// Its heading in a manual page, which is printed in capitals: there 2.4m/s would be 2.4M/S, which is another unit.
+    manual: &'static str,
+    /// The names of its options.
+    names: &'static str,
+}
+
+const GROUPS: [Group; 5] = [
+    Group {
+        heading: "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
+        manual: "Coin options",
+        names: "coin cylinder moments inertia",
+    },
+    Group {
+        heading: "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
+        manual: "Launch options",
+        names: "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt attitude space spread drag bounce from scene",
+    },
+    Group { heading: "Solver", manual: "Solver options", names: "solver scheme tolerance step formulation prove" },
+    Group {
+        heading: "Sampling",
+        manual: "Sampling options",
+        names: "method accuracy points seed steps replicates up_to reference across up threads heads shard",
+    },
+    Group {
+        heading: "Output",
+        manual: "Output options",
+        names: "format margin out svg dt repeats want probability counts shell command",
+    },
 ];
+
+/// How quantities are given, for a manual page.
+const UNITS: &str = "A quantity without a unit is in SI units, and an angle in radians. With a unit it is written as in 5.67g, 24mm, \
+1.7g·cm², 15deg, 38rev/s, 600rpm, 2.4m/s or 500ms; capitals count.";
 
 /// What heads is, for commands whose answer has an outcome.
 const HEADS: &str = "Heads: the coin lands with cos θ > 0, where θ is the angle between the normal of its heads side and the \
@@ -97,7 +120,8 @@ const TEXTS: &[Text] = &[
         usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
         example: "unfair-toss map --rate-x 0:40:5 --rate-y 0 --rate-z 20:60:3 --speed 3:5",
         meaning: "With a space by its name, both axes have to have points: unfair-toss map --space paper-fig4 --up speed.\n\n\
-                  Columns: the coordinate across, the coordinate up, and the probability of heads at this node.",
+                  Columns: the coordinate across, the coordinate up, and the probability of heads at this node. If launches are \
+                  undecided, a column undecided has their number, and a node of which none is decided has no probability.",
     },
     Text {
         command: "merge",
@@ -127,7 +151,7 @@ const TEXTS: &[Text] = &[
         example: "unfair-toss limit --coin us-quarter --points 100",
         meaning: "Columns: cone_angle, the angle ψ between the normal and the angular momentum (rad); limit, the probability of \
                   heads in the limit of long flights; launches, the number of long flights; share, that of heads among them, \
-                  with its 95 % interval from share_lo to share_hi.",
+                  with its 95 % interval from share_lo to share_hi. Both are the same for all coins.",
     },
     Text {
         command: "plan",
@@ -149,21 +173,49 @@ pub(crate) fn described(program: Command) -> Command {
     TEXTS.iter().fold(program, |program, text| program.mut_subcommand(text.command, |command| text.added_to(command)))
 }
 
+/// The group of an option.
+fn group(option: &Arg) -> Option<&'static Group> {
+    GROUPS.iter().find(|group| group.names.split(' ').any(|name| name == option.get_id()))
+}
+
+/// A section of a manual page: its heading and its paragraphs.
+pub(crate) type Section = (&'static str, Vec<&'static str>);
+
+/// `command` with the headings of a manual page for its options, and what stands in the page after them.
+pub(crate) fn manual(command: Command) -> (Command, Vec<Section>) {
+    let text = TEXTS.iter().find(|text| text.command == command.get_name());
+    let has_quantities = command.get_arguments().filter_map(group).any(|group| group.heading.contains('('));
+    let sections = [
+        ("UNITS", if has_quantities { vec![UNITS] } else { Vec::new() }),
+        ("OUTPUT", text.map_or_else(Vec::new, Text::paragraphs)),
+        ("EXAMPLES", text.map_or_else(Vec::new, |text| vec![text.example])),
+    ];
+    let headed = command.mut_args(|option| match group(&option) {
+        Some(group) => option.help_heading(group.manual),
+        None => option,
+    });
+    (headed, sections.into_iter().filter(|(_, paragraphs)| !paragraphs.is_empty()).collect())
+}
+
 impl Text {
     fn added_to(&self, command: Command) -> Command {
-        let has_outcome = !matches!(
-            self.command,
-            "inverse" | "plan" | "coins" | "solvers" | "models" | "spaces" | "completions" | "man"
-        );
-        let paragraphs = [self.meaning, if has_outcome { HEADS } else { "" }];
-        let after = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
-        let after: String = after.map(|paragraph| format!("\n\n{paragraph}")).collect();
-        let grouped = command.mut_args(|argument| {
-            let group = GROUPS.iter().find(|(_, names)| names.split(' ').any(|name| name == argument.get_id()));
-            group.map_or(argument.clone(), |(heading, _)| argument.help_heading(*heading))
+        let after: String = self.paragraphs().iter().map(|paragraph| format!("\n\n{paragraph}")).collect();
+        let grouped = command.mut_args(|option| match group(&option) {
+            Some(group) => option.help_heading(group.heading),
+            None => option,
         });
         grouped
             .override_usage(format!("unfair-toss {} {}", self.command, self.usage))
             .after_help(format!("Example:\n  {}{after}", self.example))
+    }
+
+    /// What the words and columns of the answer mean.
+    fn paragraphs(&self) -> Vec<&'static str> {
+        let has_outcome = !matches!(
+            self.command,
+            "inverse" | "plan" | "coins" | "solvers" | "models" | "spaces" | "completions" | "man"
+        );
+        let heads = if has_outcome { HEADS } else { "" };
+        self.meaning.split("\n\n").chain([heads]).filter(|paragraph| !paragraph.is_empty()).collect()
     }
 }

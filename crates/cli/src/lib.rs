@@ -86,7 +86,7 @@ impl Command {
     fn run(&self, registry: &Registry, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
         match self {
             Self::Toss(args) => args.run(registry, input),
-            Self::Trace(args) => args.run(registry, input),
+            Self::Trace(args) => args.run(registry, input, streams),
             Self::Probability(args) => args.run(registry, input),
             Self::Sample(args) => args.run(registry, streams),
             Self::Compare(args) => args.run(registry, input),
@@ -103,7 +103,7 @@ impl Command {
             Self::Solvers(args) => Ok(list::solvers(args, registry, input)),
             Self::Models(args) => Ok(list::models(args, input)),
             Self::Spaces(args) => list::spaces(args, input),
-            Self::Completions(args) => Ok(args.run(program_with(registry))),
+            Self::Completions(args) => Ok(args.run(registry, program_with(registry))),
             Self::Man(args) => args.run(program_with(registry)),
         }
     }

@@ -87,6 +87,11 @@ impl SeriesArgs {
         }
     }
 
+    /// Whether the answer is CSV without a chart.
+    pub(crate) fn is_csv_alone(&self) -> bool {
+        !self.has_chart() && self.format != Some(DataFormat::Json)
+    }
+
     /// Whether a chart is asked for.
     pub(crate) fn has_chart(&self) -> bool {
         self.svg.is_some()

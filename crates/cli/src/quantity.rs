@@ -70,9 +70,70 @@ fn named<T: Copy + Send + Sync + 'static>(
     names.map(move |text| *listed.iter().find(|one| name(**one) == text).expect("clap refuses any other name"))
 }
 
+/// The shortest digits that read back as the same number, with an exponent if it is tiny or huge.
+pub(crate) fn shortest(number: f64) -> String {
+    match number.abs() {
+        0.0 | 1e-4..1e16 => number.to_string(),
+        _ => format!("{number:e}"),
+    }
+}
+
+/// A number to two decimal places, or three digits if it is below 1, without zeros at its end.
+pub(crate) fn rounded(number: f64) -> String {
+    let text = if number.abs() < 1.0 { format!("{number:.2e}") } else { format!("{number:.2}") };
+    shortest(text.parse().unwrap_or(number))
+}
+
+/// A part of a whole in percent: its decimal with the point moved, which a product by 100 would round.
+pub(crate) fn in_percent(part: f64) -> f64 {
+    let moved = format!("{part:e}").split_once('e').and_then(|(digits, exponent)| {
+        let exponent: i32 = exponent.parse().ok()?;
+        format!("{digits}e{}", exponent + 2).parse().ok()
+    });
+    moved.unwrap_or(100.0 * part)
+}
+
+/// The same as text, by all digits that tell it from its neighbours.
+pub(crate) fn percent(part: f64) -> String {
+    format!("{} %", shortest(in_percent(part)))
+}
+
+/// A probability to so many decimal places, at least. It has more where it would be printed as 0 or 1 and is neither.
+pub(crate) fn probability(value: f64, places: usize) -> String {
+    let is_certain = value == 0.0 || value == 1.0;
+    let shown = (places..=17).map(|places| format!("{value:.places$}"));
+    let told = |text: &String| is_certain || text.parse().is_ok_and(|shown: f64| shown != 0.0 && shown != 1.0);
+    shown.clone().find(told).unwrap_or_else(|| shortest(value))
+}
+
 /// What is wrong with a text that is not what was `expected`.
 fn expected(text: &str, expected: &str) -> String {
     let look_alike = look_alike(text)
         .map(|(found, meant)| format!("'{found}' (U+{:04X}) only looks like '{meant}'; ", u32::from(found)));
     format!("{}expected {expected}", look_alike.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiny_and_huge_numbers_have_an_exponent() {
+        let shown = [0.0, 1e-307, 1e-5, 1e-4, 0.1, 1e15, 1e300, -1e-9].map(shortest);
+        assert_eq!(shown, ["0", "1e-307", "1e-5", "0.0001", "0.1", "1000000000000000", "1e300", "-1e-9"]);
+        assert_eq!([38.0 / std::f64::consts::TAU, 38.0, 1e-300].map(rounded), ["6.05", "38", "1e-300"]);
+    }
+
+    #[test]
+    fn a_percentage_is_the_decimal_with_its_point_moved() {
+        let shown = [0.07, 0.29, 0.000_095, 1e-7, 1.0].map(percent);
+        assert_eq!(shown, ["7 %", "29 %", "0.0095 %", "1e-5 %", "100 %"]);
+    }
+
+    #[test]
+    fn certainty_is_never_reached_by_rounding() {
+        let shown = [0.0, 1.0, 0.5, 0.999_999_99, 1.0 - f64::EPSILON, 3e-9].map(|value| probability(value, 6));
+        assert_eq!(shown, ["0.000000", "1.000000", "0.500000", "0.99999999", "0.9999999999999998", "0.000000003"]);
+        assert_eq!(probability(1e-300, 6), "1e-300");
+    }
 }

@@ -63,6 +63,20 @@ impl SolverArgs {
         proves.map_err(|error| Failure::usage("prove", format!("--prove: {error}")))
     }
 
+    /// The solver with its settings, for an answer that does not have cos θ of landings. The quaternion as printed is refused:
+    /// it leaves that cos θ without projection, and the attitudes and outcomes are the same.
+    pub(crate) fn backend_of_outcomes(&self, registry: &Registry) -> Result<Backend, Failure> {
+        let (raw, name) = (Formulation::RAW.name(), QuaternionSolver::NAME);
+        if self.solver == name && self.formulation.as_deref() == Some(raw) {
+            let message = format!(
+                "--formulation {raw} has no effect here by {name}: it leaves cos θ of a landing without projection, which \
+                 turns no attitude and no outcome"
+            );
+            return Err(Failure::usage("formulation", message));
+        }
+        self.backend(registry)
+    }
+
     fn config(&self) -> Result<SolverConfig, Failure> {
         let mut config = SolverConfig::new(self.solver.as_str());
         if let Some(scheme) = &self.scheme {
@@ -157,7 +171,8 @@ fn formulations(registry: &Registry) -> String {
     one_of(described.collect::<Vec<_>>().iter().map(String::as_str))
 }
 
-fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -> Vec<T> {
+/// Each item the first time that it stands there.
+pub(crate) fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -> Vec<T> {
     items.fold(Vec::new(), |mut all, item| {
         if !all.contains(item) {
             all.push(*item);

@@ -25,19 +25,20 @@ use crate::toss_args::{CoinArgs, Options, TurnArgs};
 pub(crate) struct SpaceArgs {
     #[command(flatten)]
     pub(crate) coin: CoinArgs,
-    /// A named space of launches (`spaces` lists them), or a file that ends in .toml
+    /// A named space of launches (`spaces` lists them), or a file that ends in .toml. Options of the coin and --drop replace
+    /// what it says, and --spread widens its rates and its speed; the other options of a launch can't be used with it
     #[arg(long, value_name = "NAME|FILE.toml",
           conflicts_with_all = ["rate_x", "rate_y", "rate_z", "turn", "wobble", "speed", "gravity", "tilt"])]
     space: Option<String>,
     /// Body rate ωx: VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; y or z ties it to
     /// that rate
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
     rate_x: Option<String>,
     /// Body rate ωy, likewise; x for ωy = ωx
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
     rate_y: Option<String>,
     /// Body rate ωz about the coin's normal, likewise
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
     rate_z: Option<String>,
     #[command(flatten)]
     turn: TurnArgs,
@@ -97,8 +98,16 @@ impl SpaceArgs {
 
     /// The space in words, for the title of a chart: by its name, or by its body and its axes as they were typed.
     pub(crate) fn words(&self, space: &Space) -> String {
+        let drop = self.drop.map(|drop| format!("drop {} m", quantity::shortest(drop)));
+        let spread = self.spread.map(|spread| format!("spread {}", quantity::percent(spread)));
+        let launches = [self.words_of_launches(space)].into_iter().chain(drop).chain(spread);
+        launches.collect::<Vec<_>>().join(", ")
+    }
+
+    fn words_of_launches(&self, space: &Space) -> String {
         if let Some(name) = &self.space {
-            return format!("space {name}");
+            let body = self.coin.given_body().is_ok_and(|body| body.is_some());
+            return format!("space {name}") + &if body { format!(", {}", named(space.body())) } else { String::new() };
         }
         let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
         let typed = Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| {
@@ -107,6 +116,11 @@ impl SpaceArgs {
         });
         let axes: Vec<String> = self.turn.words_of_rate().into_iter().chain(typed).collect();
         format!("{}: {}", named(space.body()), axes.join(", "))
+    }
+
+    /// The rate at which n turns as it was understood, if it was given so.
+    pub(crate) fn turn_in_words(&self) -> Option<String> {
+        self.turn.turn_in_words()
     }
 
     /// Refuses a map over a rate that `--turn` and `--wobble` fix.

@@ -1,6 +1,8 @@
 //! The options that describe one toss: the body, its rate and its launch, and for a flight also the solver. They are the
 //! fields of [`Thrown`], which refuses what contradicts itself. The commands about single tosses share them.
 
+use std::f64::consts::TAU;
+
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use dynamics::Thrown;
 use dynamics::quantity::{Given, common_unit};
@@ -128,9 +130,17 @@ impl<const GROUP: usize> Options<GROUP> {
         let components = thrown.components().ok()??;
         let list = |number: fn(Given) -> String| components.map(number).join(", ");
         Some(match common_unit(&components) {
-            Some(unit) => format!("ω = ({}) {}", list(|given| given.value().to_string()), unit.name()),
+            Some(unit) => format!("ω = ({}) {}", list(|given| quantity::shortest(given.value())), unit.name()),
             None => format!("ω = ({})", list(shown)),
         })
+    }
+
+    /// The rate at which n turns as it was understood, in turns and in radians, if it was given so: people who write 38
+    /// without a unit often mean turns.
+    pub(crate) fn turn_in_words(&self) -> Option<String> {
+        let rate = self.0.as_ref().ok()?.one(Field::Turn)?.si();
+        let [turns, radians] = [rate / TAU, rate].map(quantity::rounded);
+        Some(format!("turn         {turns} rev/s = {radians} rad/s"))
     }
 
     /// The launch in the units in which it was typed, for the title of a chart.
@@ -143,13 +153,14 @@ impl<const GROUP: usize> Options<GROUP> {
             None if has_attitude => "at an attitude".to_owned(),
             None => "horizontally".to_owned(),
         };
-        format!("launched {tilt}, {}", self.words_of_rate().unwrap_or_default())
+        let drop = thrown.and_then(|thrown| thrown.one(Field::Drop)).map(|drop| format!(", drop {}", shown(drop)));
+        format!("launched {tilt}, {}{}", self.words_of_rate().unwrap_or_default(), drop.unwrap_or_default())
     }
 }
 
 /// A quantity in the unit in which it was typed.
 fn shown(given: Given) -> String {
-    format!("{} {}", given.value(), given.unit().name())
+    format!("{} {}", quantity::shortest(given.value()), given.unit().name())
 }
 
 /// Options for one toss and the solver that flies it.

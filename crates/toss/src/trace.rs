@@ -59,6 +59,26 @@ impl serde::Serialize for TracePoint {
     }
 }
 
+/// The times at which a flight is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Times {
+    /// So many, equally spaced, launch and landing included.
+    Number(usize),
+    /// Every so many seconds from launch on, and the landing. Where a step ends at the landing to rounding, the landing takes
+    /// its place.
+    Every(f64),
+}
+
+impl Times {
+    /// The times (s), which ascend from 0.
+    fn of(self, launch: &Launch) -> Result<Vec<f64>, InputError> {
+        match self {
+            Self::Number(points) => spaced(launch, points),
+            Self::Every(step) => stepped(launch, step),
+        }
+    }
+}
+
 /// The flight of `toss`, of a coin or any rigid body, by `solver` at `points` equally spaced times, launch and landing
 /// included.
 ///
@@ -68,7 +88,36 @@ impl serde::Serialize for TracePoint {
 /// # Errors
 /// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
 pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
-    trace_at(solver, toss, spaced(&toss.launch, points)?.into_iter())
+    trace_points(solver, toss, Times::Number(points))?.collect()
+}
+
+/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing, as [`Times::Every`] says.
+///
+/// # Errors
+/// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
+/// solver says.
+pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
+    trace_points(solver, toss, Times::Every(step))?.collect()
+}
+
+/// The points of [`trace`] or [`trace_every`], each computed when it is asked for. After an error there is none.
+///
+/// # Errors
+/// [`InputError`] for times that [`trace`] or [`trace_every`] refuses.
+pub fn trace_points<'a>(
+    solver: &'a dyn Solver,
+    toss: &'a Toss,
+    times: Times,
+) -> Result<impl Iterator<Item = Result<TracePoint, Error>> + 'a, InputError> {
+    let mut flown =
+        Flown { solver: Checked::new(solver), toss, branch: Branch::new(toss), last: (0.0, launched(toss)) };
+    Ok(until_error(times.of(&toss.launch)?.into_iter().map(move |time| flown.at(time))))
+}
+
+/// The items up to the first error, and that error.
+fn until_error<T>(items: impl Iterator<Item = Result<T, Error>>) -> impl Iterator<Item = Result<T, Error>> {
+    let mut has_failed = false;
+    items.take_while(move |item| !std::mem::replace(&mut has_failed, item.is_err()))
 }
 
 /// So many equally spaced times (s) from launch to landing.
@@ -77,16 +126,6 @@ fn spaced(launch: &Launch, points: usize) -> Result<Vec<f64>, InputError> {
     #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
     let time = |index: usize| launch.flight_time() * (index as f64 / (points - 1) as f64);
     Ok((0..points).map(time).collect())
-}
-
-/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing. Where a step ends at the landing
-/// to rounding, the landing takes its place.
-///
-/// # Errors
-/// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
-/// solver says.
-pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
-    trace_at(solver, toss, stepped(&toss.launch, step)?.into_iter())
 }
 
 /// The times (s) from launch on with this `step`, and that of the landing.
@@ -115,7 +154,7 @@ pub struct EnclosedPoint {
 /// # Errors
 /// As [`trace`] and [`QuaternionSolver::enclose`].
 pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> Result<Vec<EnclosedPoint>, Error> {
-    enclosed_at(solver, toss, &spaced(&toss.launch, points)?)
+    enclosed_points(solver, toss, Times::Number(points))?.collect()
 }
 
 /// As [`trace_every`], with proven bounds of the errors at each point.
@@ -123,46 +162,62 @@ pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> 
 /// # Errors
 /// As [`trace_every`] and [`QuaternionSolver::enclose`].
 pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
-    enclosed_at(solver, toss, &stepped(&toss.launch, step)?)
+    enclosed_points(solver, toss, Times::Every(step))?.collect()
 }
 
-fn enclosed_at(solver: &QuaternionSolver, toss: &Toss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
+/// As [`trace_points`], with proven bounds of the errors at each point.
+///
+/// # Errors
+/// As [`trace_points`].
+pub fn enclosed_points<'a>(
+    solver: &'a QuaternionSolver,
+    toss: &'a Toss,
+    times: Times,
+) -> Result<impl Iterator<Item = Result<EnclosedPoint, Error>> + 'a, InputError> {
     let mut branch = Branch::new(toss);
-    let mut at = |time: f64| -> Result<EnclosedPoint, Error> {
+    let at = move |time: f64| -> Result<EnclosedPoint, Error> {
         let flown = Toss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?, ..*toss };
         let certificate = solver.enclose(&flown)?;
         let point = TracePoint::new(time, certificate.landing().state.attitude, &branch.at(time)?);
         branch.before = point.angles;
         Ok(EnclosedPoint { point: TracePoint { cos_tilt: certificate.cos_tilt(), ..point }, certificate })
     };
-    times.iter().map(|time| at(*time)).collect()
+    Ok(until_error(times.of(&toss.launch)?.into_iter().map(at)))
 }
 
-/// The flight of `toss` by `solver` at `times`, which ascend from 0.
-fn trace_at(solver: &dyn Solver, toss: &Toss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
-    let solver = Checked::new(solver);
-    let mut branch = Branch::new(toss);
-    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-    let mut last = (0.0, launch);
-    let mut trace = Vec::with_capacity(times.size_hint().0);
-    for time in times {
+/// The state at launch.
+fn launched(toss: &Toss) -> State {
+    State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }
+}
+
+/// A flight that is followed from point to point.
+struct Flown<'a> {
+    solver: Checked<&'a dyn Solver>,
+    toss: &'a Toss,
+    branch: Branch,
+    /// The time and the state of the last point.
+    last: (f64, State),
+}
+
+impl Flown<'_> {
+    /// The point at `time` (s), which is not before the last one.
+    fn at(&mut self, time: f64) -> Result<TracePoint, Error> {
+        let (toss, last) = (self.toss, self.last);
         // A closed form starts from the launch as it was given, whose rate may have a unit.
-        let (since, leg) = match solver.stepping() {
+        let (since, leg) = match self.solver.stepping() {
             Some(_) => (last.0, Launch::from_state(&last.1, TimeOfFlight::Given(time - last.0))?),
             // So does the time of the landing, which is not the rounded one.
             None if time == toss.launch.flight_time() => (0.0, toss.launch),
             None => (0.0, toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?),
         };
         let leg = Toss { launch: leg, ..*toss };
-        let state = solver.land(&leg).map_err(|error| error.later(since))?.state;
+        let state = self.solver.land(&leg).map_err(|error| error.later(since))?.state;
         // A closed form leaves a turn of 1e-33 at launch, which would say where n goes.
-        let attitude = if time == 0.0 { branch.launched(&state) } else { state.attitude };
-        let point = TracePoint::new(time, attitude, &branch.at(time)?);
-        branch.before = point.angles;
-        trace.push(point);
-        last = (time, state);
+        let attitude = if time == 0.0 { self.branch.launched(&state) } else { state.attitude };
+        let point = TracePoint::new(time, attitude, &self.branch.at(time)?);
+        (self.branch.before, self.last) = (point.angles, (time, state));
+        Ok(point)
     }
-    Ok(trace)
 }
 
 /// The Euler angles whose branch a point takes: those of the exact motion, or where a body has turned too often for

@@ -24,12 +24,15 @@ pub(crate) struct ErrorLine {
     pub(crate) reference_error: f64,
 }
 
-/// The chart as SVG, of errors above 0.
-pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<String, ChartError> {
+/// The chart as SVG, of errors above 0. Its title says `of` what they are.
+pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference, of: &str) -> Result<String, ChartError> {
     let [(fewest, most), (smallest, largest)] = spans(lines).ok_or(ChartError("every error is 0".to_owned()))?;
     svg(SIZE, |root| {
-        let (x, y) = (Axis::logarithmic("launches n", fewest..most), Axis::logarithmic("error", smallest..largest));
-        let mut chart = frame(root, "Error of P(heads), root mean square over seeds", (&x, &y), 420)?;
+        let (x, y) = (
+            Axis::logarithmic("launches n", fewest..most),
+            Axis::logarithmic("error, root mean square over seeds", smallest..largest),
+        );
+        let mut chart = frame(root, &format!("Error of P(heads), {of}"), (&x, &y), 420)?;
         let mut labels: Vec<EndLabel> = Vec::new();
         if reference.error > smallest {
             let floor = [fewest, most].map(|launches| (x.position(launches), y.position(reference.error)));

@@ -11,6 +11,7 @@ use toss::catalogue::entries;
 use toss::{Attitude, Body, CoinMotion, ExactMotion, Outcome, TimeOfFlight, Toss, TracePoint, Vector3};
 
 use crate::chart::solid::{EDGE, Seen, Solid, TAILS, draw_cuboid, end_of, project};
+use crate::quantity::shortest;
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1800, 1110);
@@ -39,8 +40,8 @@ pub(crate) fn flight(
         centred(&head, &title(toss, launched, outcome), (middle, 36))?;
         centred(&head, solver, (middle, 78))?;
         draw_coins(&coins, flight, toss)?;
-        draw_tilt(&tilt, flight)?;
-        draw_sphere(&sphere, flight)?;
+        draw_tilt(&tilt, flight, toss)?;
+        draw_sphere(&sphere, flight, is_too_fast(toss))?;
         draw_legend(&legend, is_too_fast(toss), Solid::new(&toss.body))
     })
 }
@@ -73,13 +74,18 @@ pub(crate) fn named(body: &Body) -> String {
     format!("{} (moments {one} : {two} : {three})", name("Body"))
 }
 
-fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
+/// Draws cos θ as a line, or of too many turns as the band that it fills.
+fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
     let (x, y) = (times("time [s]", flight), Axis::linear("cos θ", -1.1..1.1));
     let mut chart = frame(panel, "", (&x, &y), RIGHT)?;
     let [start, end] = [x.start(), x.end()];
     chart.draw_series(LineSeries::new([(start, 0.0), (end, 0.0)], BLACK.stroke_width(2)))?;
-    let line = flight.iter().map(|point| (point.time, point.cos_tilt));
-    chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(4)))?;
+    if is_too_fast(toss) {
+        chart.draw_series([Polygon::new(band(flight, turns(toss)), NORMAL.mix(0.5).filled())])?;
+    } else {
+        let line = flight.iter().map(|point| (point.time, point.cos_tilt));
+        chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(4)))?;
+    }
     // Beside the frame, where no curve comes.
     let (right, level) = pixel(panel, &chart, (end, 0.0));
     panel.draw(&Text::new("heads", (right + 12, level - 40), TEXT))?;
@@ -100,10 +106,20 @@ const COINS: usize = 11;
 
 /// Points of a curve for each turn: at 60 a chord is nowhere farther than 0.0014 radii from its circle.
 const POINTS_PER_TURN: f64 = 60.0;
-/// More turns than these would be too narrow to be seen; a faster flight is drawn by as many points.
-const MOST_TURNS: f64 = 500.0;
+/// More turns than these can't be told apart; of a faster flight is drawn where it comes, and not on which way.
+const MOST_TURNS: f64 = 60.0;
 /// The fewest turns' worth of points, for a flight of less than a turn.
 const FEWEST_TURNS: f64 = 2.0;
+
+/// About how many points tell where a fast flight comes.
+const POINTS_OF_BAND: f64 = 10_000.0;
+/// The part of a turn by which its points go on beside whole turns: the golden section, so that they meet all phases evenly.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// The most parts of a band, and the turns in each of them at least.
+const PARTS: f64 = 240.0;
+const TURNS_PER_PART: f64 = 6.0;
+/// One point of so many of a fast flight is a dot on the sphere.
+const POINTS_PER_DOT: usize = 7;
 
 /// The axis of the times that are drawn (s), with room for half a coin at either end.
 fn times(label: &str, flight: &[TracePoint]) -> Axis {
@@ -114,8 +130,36 @@ fn times(label: &str, flight: &[TracePoint]) -> Axis {
 /// How many points the curves of `toss` are drawn by. The coins are at points of the curve, at equal times.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30 000")]
 pub(crate) fn points_to_draw(toss: &Toss) -> usize {
+    if is_too_fast(toss) {
+        return points_of_band(turns(toss)).ceil() as usize + 1;
+    }
     let between_coins = POINTS_PER_TURN * turns(toss).clamp(FEWEST_TURNS, MOST_TURNS) / (COINS - 1) as f64;
     between_coins.ceil() as usize * (COINS - 1) + 1
+}
+
+/// How many intervals there are between the points of a fast flight. None is near a simple part of a turn: of a flight of
+/// 100 000 turns, 30 000 equal intervals would show three phases.
+fn points_of_band(turns: f64) -> f64 {
+    if turns < POINTS_OF_BAND {
+        return turns * ((POINTS_OF_BAND / turns).floor() + GOLDEN);
+    }
+    // Of more turns than an f64 counts, any number serves.
+    let every = (turns / POINTS_OF_BAND).floor() + GOLDEN;
+    if every < 1e12 { turns / every } else { POINTS_OF_BAND }
+}
+
+/// The outline of the times and of cos θ between which a flight of so many turns comes.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 240")]
+fn band(flight: &[TracePoint], turns: f64) -> Vec<(f64, f64)> {
+    let parts = (turns / TURNS_PER_PART).min(PARTS) as usize;
+    let corners = flight.chunks(flight.len().div_ceil(parts.max(1))).flat_map(|part| {
+        let values = || part.iter().map(|point| point.cos_tilt);
+        let ends = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
+        [part.first(), part.last()].into_iter().flatten().map(move |point| (point.time, ends))
+    });
+    let corners: Vec<(f64, [f64; 2])> = corners.collect();
+    let lower = corners.iter().map(|(time, [low, _])| (*time, *low));
+    lower.chain(corners.iter().rev().map(|(time, [_, high])| (*time, *high))).collect()
 }
 
 /// Whether the flight has more turns than can be drawn.
@@ -149,7 +193,7 @@ fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
     if !room.is_finite() {
         return Err(ChartError("a flight so high can't be drawn".to_owned()).into());
     }
-    let height = format!("height [m], at g = {} m/s²", thrown.gravity);
+    let height = format!("height [m], at g = {} m/s²", shortest(thrown.gravity));
     let (x, y) = (times("", flight), Axis::linear(&height, lowest - room..highest + room));
     let chart = frame(panel, "", (&x, &y), RIGHT)?;
     let solid = Solid::new(&toss.body);
@@ -232,8 +276,8 @@ const MARGIN: u32 = 16;
 type Chart<'a, 'b> =
     ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Draws the paths of `flight`.
-fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
+/// Draws the paths of `flight`, or some of their points if it is too fast.
+fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint], is_too_fast: bool) -> Drawn {
     let (width, height) = panel.dim_in_pixel();
     let (middle, title) = (i32::try_from(width / 2).unwrap_or(0), "The paths on the unit sphere, seen from above");
     centred(panel, title, (middle, 40))?;
@@ -248,7 +292,11 @@ fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
         [(FACE, (|point| point.face) as fn(&TracePoint) -> Vector3<f64>), (NORMAL, |point| point.normal)]
     {
         let seen: Vec<Seen> = flight.iter().map(|point| project(&of(point))).collect();
-        draw_path(&mut chart, &seen, colour, 4)?;
+        if is_too_fast {
+            draw_dots(&mut chart, &seen, colour)?;
+        } else {
+            draw_path(&mut chart, &seen, colour, 4)?;
+        }
         if let (Some(first), Some(last)) = (seen.first(), seen.last()) {
             let launch = Circle::new((first.right, first.up), 11, WHITE.filled());
             let ring = Circle::new((first.right, first.up), 11, colour.stroke_width(4));
@@ -275,21 +323,34 @@ fn draw_path(chart: &mut Chart<'_, '_>, path: &[Seen], colour: RGBColor, width: 
     Ok(())
 }
 
+/// Draws points of a path on the sphere, pale where they are on the far side.
+fn draw_dots(chart: &mut Chart<'_, '_>, path: &[Seen], colour: RGBColor) -> Drawn {
+    for (is_near, shade) in [(false, colour.mix(0.3)), (true, colour.mix(1.0))] {
+        let dots = path.iter().step_by(POINTS_PER_DOT).filter(|at| (at.near >= 0.0) == is_near);
+        chart.draw_series(dots.map(|at| Circle::new((at.right, at.up), 3, shade.filled())))?;
+    }
+    Ok(())
+}
+
 /// Height of a line of text (pixels).
 const ROW: i32 = 42;
 
 /// Draws it, with a remark on a flight that is too fast to be drawn turn by turn.
 fn draw_legend(panel: &Panel<'_>, is_too_fast: bool, solid: Solid) -> Drawn {
     let coins = match (solid, is_too_fast) {
-        (Solid::Disc, true) => "coins enlarged; too many turns to draw each",
+        (Solid::Disc, true) => "coins enlarged; cos θ fills the band",
         (Solid::Disc, false) => "coins enlarged",
-        (Solid::Cuboid(_), true) => "a cuboid of its moments; too many turns to draw",
+        (Solid::Cuboid(_), true) => "a cuboid of its moments; cos θ fills the band",
         (Solid::Cuboid(_), false) => "drawn as the cuboid with its moments",
+    };
+    let sides = match is_too_fast {
+        true => "○ launch, ● landing; pale: on the far side",
+        false => "○ launch, ● landing; dashed: on the far side",
     };
     let rows = [
         ("n, the normal of the heads side", NORMAL),
         ("a vector fixed in the face", FACE),
-        ("○ launch, ● landing; dashed: on the far side", BLACK),
+        (sides, BLACK),
         (coins, GREY),
     ];
     for (row, (words, colour)) in (0..).zip(rows) {
@@ -321,15 +382,15 @@ mod tests {
         // About y for sixteen turns, which the racket does not do for ever, and about its handle.
         assert!((1900..2000).contains(&drawn([0.0, 10.0, 0.0], 10.0)), "{}", drawn([0.0, 10.0, 0.0], 10.0));
         assert!((950..4000).contains(&drawn([0.01, 10.0, 0.01], 10.0)), "{}", drawn([0.01, 10.0, 0.01], 10.0));
-        assert_eq!(drawn([0.0, 1e300, 0.0], 10.0), 30_001);
+        assert_eq!(drawn([0.0, 1e300, 0.0], 10.0), 10_001);
     }
 
     #[test]
-    fn curves_have_sixty_points_for_each_turn_of_n_and_of_the_face() {
+    fn curves_have_sixty_points_for_each_turn_of_n_and_of_the_face_up_to_sixty_turns() {
         // ωL = 10 rad/s without spin, and ωL = spin = 20 rad/s: 16 and 64 turns in ten seconds.
         let [wobbling, spinning] = [[6.0, 8.0, 0.0], [0.0, 0.0, 40.0]].map(|rate| points_to_draw(&toss(rate, 10.0)));
         assert!((955..980).contains(&wobbling), "{wobbling}");
-        assert!((3820..3850).contains(&spinning), "{spinning}");
+        assert!((9_000..16_000).contains(&spinning), "{spinning}");
     }
 
     #[test]

@@ -8,13 +8,13 @@ use sampling::{LONG_FLIGHT_TURNS, LongFlightShare, long_flight_probability};
 /// The angles ψ that are drawn (degrees).
 const RANGE: std::ops::Range<f64> = 28.0..92.0;
 
-/// The chart as SVG.
-pub(crate) fn limit(shares: &[LongFlightShare]) -> Result<String, ChartError> {
+/// The chart as SVG. Its title says `of` what body the flights are.
+pub(crate) fn limit(shares: &[LongFlightShare], of: &str) -> Result<String, ChartError> {
     let launches = shares.first().map_or(0, |found| found.estimate.points);
     svg(SIZE, |root| {
         let x = Axis::linear("angle ψ between the coin's normal and its angular momentum [degrees]", RANGE);
         let y = Axis::linear("P(heads)", 0.4..1.04);
-        let mut chart = frame(root, "P(heads) of long flights from horizontal", (&x, &y), 20)?;
+        let mut chart = frame(root, &format!("P(heads) of long flights from horizontal, {of}"), (&x, &y), 20)?;
         // One of the steps is 45°, where the curve has a corner.
         let curve = (112..=368).map(|step| 0.25 * f64::from(step)).map(|angle| {
             let cone: f64 = angle.to_radians();

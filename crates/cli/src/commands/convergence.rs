@@ -38,7 +38,7 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
-        let backend = self.solver.backend(registry)?;
+        let backend = self.solver.backend_of_outcomes(registry)?;
         let points = space.grid_points()?;
         let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);

@@ -49,7 +49,7 @@ impl Args {
         self.space.require_grid_where_points_are(&space, |_| false)?;
         let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);
         let (lines, reference) = self.threads.ask(Sampler::exact(), (self.launches(), "launches"), ask)?;
-        self.series.answer_lines(input, &lines, || Ok(chart::errors(&lines, &reference)?))
+        self.series.answer_lines(input, &lines, || Ok(chart::errors(&lines, &reference, &self.space.words(&space))?))
     }
 
     /// The numbers of launches with which each method is run.

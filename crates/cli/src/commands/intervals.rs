@@ -10,7 +10,7 @@ use toss::{Coin, ExactMotion, TimeOfFlight, Toss, speeds_of_heads};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, row, table};
-use crate::quantity;
+use crate::quantity::{self, probability, shortest};
 use crate::toss_args::{CoinArgs, RateArgs};
 
 /// The largest number of turns, with one interval each. A longer list would be of no use.
@@ -69,7 +69,9 @@ impl Args {
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Speeds { heads, probability: (length / (fastest - slowest)).min(1.0) };
-        Ok(self.format.print(input, &answer, || answer.text()))
+        Ok(self.format.print(input, &answer, || {
+            [answer.text()].into_iter().chain(self.rate.turn_in_words()).collect::<Vec<_>>().join("\n")
+        }))
     }
 }
 
@@ -87,10 +89,15 @@ fn speeds(text: &str) -> Result<[f64; 2], Failure> {
     Err(Failure::usage("speed", format!("--speed '{text}': {why}")))
 }
 
+/// A speed (m/s) to twelve decimal places, or by its digits if it is tiny or huge.
+fn speed(speed: f64) -> String {
+    if speed == 0.0 || (1e-4..1e16).contains(&speed) { format!("{speed:.12}") } else { shortest(speed) }
+}
+
 impl Speeds {
     fn text(&self) -> String {
         let mut rows = vec![row(["from/(m/s)", "to/(m/s)"])];
-        rows.extend(self.heads.iter().map(|[slow, fast]| row([&format!("{slow:.12}"), &format!("{fast:.12}")])));
-        format!("heads at speeds\n{}\nshare of the range  {:.12}", table(&rows), self.probability)
+        rows.extend(self.heads.iter().map(|[slow, fast]| row([&speed(*slow), &speed(*fast)])));
+        format!("heads at speeds\n{}\nshare of the range  {}", table(&rows), probability(self.probability, 12))
     }
 }

@@ -52,7 +52,7 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let coin = self.coin.coin()?;
-        let backend = self.solver.backend(registry)?;
+        let backend = self.solver.backend_of_outcomes(registry)?;
         // 30° to 90° in steps of 2.5°; beyond 90° the curve is the mirror image.
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
@@ -69,6 +69,6 @@ impl Args {
             undecided: is_undecided.then(|| found.estimate.undecided()),
         };
         let lines: Vec<Line> = shares.iter().map(line).collect();
-        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
+        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares, &chart::named(&coin.into()))?))
     }
 }

@@ -9,7 +9,7 @@ use toss::{InputError, Registry};
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
-use crate::quantity;
+use crate::quantity::{self, shortest};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
@@ -40,7 +40,7 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
-        let backend = self.solver.backend(registry)?;
+        let backend = self.solver.backend_of_outcomes(registry)?;
         let axes = [Coordinate::named_in("across", &self.across)?, Coordinate::named_in("up", &self.up)?];
         self.space.require_free_rates(axes)?;
         let nodes = map_nodes(&space, axes)?;
@@ -78,7 +78,8 @@ fn csv(map: &Map) -> String {
     let heading = format!("{},{},probability{}\n", across.name(), up.name(), undecided("undecided"));
     let places = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
     let lines = places.zip(&map.nodes).map(|((column, row), node)| {
-        let probability = node.probability.map_or_else(String::new, |probability| probability.to_string());
+        let probability = node.probability.map_or_else(String::new, shortest);
+        let [column, row] = [*column, *row].map(shortest);
         format!("{column},{row},{probability}{}\n", undecided(&node.undecided.to_string()))
     });
     std::iter::once(heading).chain(lines).collect()

@@ -30,7 +30,7 @@ pub(crate) struct Args {
           help = format!("Number of times in a trace, launch and landing included [default: {PLANNED_POINTS}]"))]
     points: Option<usize>,
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
-    /// that ends in .toml
+    /// that ends in .toml. Options of the coin replace its body
     #[arg(long, value_name = "NAME|FILE.toml",
           conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     space: Option<String>,
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     prove: bool,
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
-          conflicts_with_all = ["want", "accuracy", "space", "solver", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "scheme", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
                                 "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     scene: Option<PathBuf>,
     #[command(flatten)]
@@ -58,7 +58,7 @@ impl Args {
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        Ok(self.format.print(input, &decision, || text(&decision)))
+        Ok(self.format.print(input, &decision, || text(&decision, &scene)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -97,20 +97,24 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
     scene.map_err(|source| Failure::Text { path: shown, source })
 }
 
-fn text(Decision { choice, passed_over }: &Decision) -> String {
+fn text(Decision { choice, passed_over }: &Decision, scene: &Scene) -> String {
     let mut settings = choice.solver().to_owned();
     settings.extend(choice.scheme().or(choice.method()).map(|name| format!(", {name}")));
     settings.extend(choice.tolerance().map(|tolerance| format!(", tolerance {tolerance:.2e}")));
     settings.extend(choice.points.map(|points| format!(", {points} launches")));
-    let error = match choice.expected_error {
-        0.0 => "none".to_owned(),
-        error if choice.is_certified() => format!("at most {}, proven", rounded_up(error)),
-        error => format!("{error:.1e}"),
+    let expected = match (&scene.want, choice.expected_error) {
+        // An outcome has no error: it is right, or undecided.
+        (Want::Outcome(_), _) if choice.scheme().is_some() => {
+            format!("undecided where |cos θ| ≤ {:e}", scene.accuracy)
+        }
+        (Want::Outcome(_), _) => "proven".to_owned(),
+        (_, error) if choice.is_certified() => format!("error at most {}, proven", rounded_up(error)),
+        (_, error) => format!("error {error:.1e}"),
     };
     let mut rows = vec![
         row(["model", choice.model.name, choice.model.gives]),
         row(["solver", &settings, ""]),
-        row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(choice.expected_cost_ns))]),
+        row(["expected", &expected, &format!("in {}", Nanoseconds(choice.expected_cost_ns))]),
     ];
     let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
     let others = passed_over.iter().zip(heading);

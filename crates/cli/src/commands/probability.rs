@@ -53,7 +53,7 @@ impl Args {
         if self.prove {
             return self.run_proving(&space, registry, input);
         }
-        let backend = self.solver.backend(registry)?;
+        let backend = self.solver.backend_of_outcomes(registry)?;
         if let (true, Some(method)) = (self.shard.is_given(), self.method) {
             if self.format.format == Format::Json {
                 return Err(Failure::usage("format", "--format has no effect with --shard: the part itself is JSON"));
@@ -69,7 +69,7 @@ impl Args {
         let chosen = || format!("\nmethod       {method}, chosen for an error of {accuracy:e}");
         Ok(self.format.print(input, &report::Estimate { found: &found, integrated: None }, || {
             let chosen = if self.method.is_none() { chosen() } else { String::new() };
-            text(&found, backend.solver().name()) + &chosen + &not_reached(&found)
+            text(&found, backend.solver().name()) + &chosen + &not_reached(&found) + &self.turn_in_words()
         }))
     }
 
@@ -89,8 +89,14 @@ impl Args {
         let counts = proving.counts();
         Ok(self.format.print(input, &report::Estimate { found: &found, integrated: Some(&counts) }, || {
             let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.by(stage)));
-            format!("{}\nproven by    integration: {}", text(&found, proving.name()), stages.join(", "))
+            let counted = format!("\nproven by    integration: {}", stages.join(", "));
+            text(&found, proving.name()) + &counted + &self.turn_in_words()
         }))
+    }
+
+    /// A line with the turn as it was understood, if it was given so.
+    fn turn_in_words(&self) -> String {
+        self.space.turn_in_words().map_or_else(String::new, |line| format!("\n{line}"))
     }
 
     /// The plan of a method.

@@ -56,7 +56,10 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = Space::of(&self.toss.toss()?)?;
         let spreads = self.threads.run(|| self.answers(&space))??;
-        Ok(self.format.print(input, &spreads, || text(self.heads, &spreads)))
+        Ok(self.format.print(input, &spreads, || {
+            let lines = text(self.heads, &spreads);
+            lines.into_iter().chain(self.toss.turn_in_words()).collect::<Vec<_>>().join("\n")
+        }))
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.
@@ -74,10 +77,10 @@ impl Args {
     }
 }
 
-fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> String {
+fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> Vec<String> {
     let mut lines = vec![format!("spread       {}", in_words(together))];
     if let Some(SufficientSpread { estimate, looks, at_least, .. }) = together.sufficient() {
-        lines.push(format!("P(heads)     {:.6} at this spread", estimate.probability));
+        lines.push(format!("P(heads)     {} at this spread", quantity::probability(estimate.probability, 6)));
         let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
         let (shown, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
@@ -96,7 +99,7 @@ fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> String {
         let assumed = "independent normal inputs, with the standard deviation spread·|value|";
         lines.push(format!("assumed      {assumed}"));
     }
-    lines.join("\n")
+    lines
 }
 
 fn in_words(found: &LargestSpread) -> String {
@@ -123,7 +126,9 @@ fn in_short(found: &LargestSpread) -> String {
     match (found, found.sufficient()) {
         (LargestSpread::Any(_), _) => "any".to_owned(),
         (_, Some(sufficient)) => {
-            let percent = 100.0 * sufficient.spread;
+            // To three digits, before the point is moved: so it is rounded once.
+            let spread = format!("{:.2e}", sufficient.spread).parse().unwrap_or(sufficient.spread);
+            let percent = quantity::in_percent(spread);
             let at_least = if matches!(found, LargestSpread::AtLeast(_)) { "at least " } else { "" };
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 12")]
             let digits = (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize;

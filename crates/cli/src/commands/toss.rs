@@ -5,6 +5,7 @@ use toss::{Body, Margin, Registry, Sensitivity, TimeOfFlight, Toss, Work};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, fixed};
+use crate::quantity::shortest;
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -34,22 +35,25 @@ impl Args {
         let has_margin = self.margin || toss.body.coin().is_some();
         let landing = if has_margin { landing.with_margin(&toss)? } else { landing };
         let landing = landing.with_sensitivity(&toss)?.rounded(&toss, &self.flight.toss.rounding()?)?;
-        Ok(self.format.print(input, &landing, || text(&landing, &toss)))
+        Ok(self.format.print(input, &landing, || text(&landing, &toss, self.flight.toss.turn_in_words())))
     }
 }
 
-fn text(landing: &Landing, toss: &Toss) -> String {
+fn text(landing: &Landing, toss: &Toss, turn: Option<String>) -> String {
     let [w, x, y, z] = landing.attitude.map(|part| fixed(part, 9));
     let scheme = landing.scheme.map(|name| format!(", {name}")).unwrap_or_default();
     let mut lines = vec![
         format!("outcome      {}{}", landing.outcome, landing.remark),
         changes(landing, toss.launch.time_of_flight()),
         format!("cos θ        {}", shortest(landing.cos_tilt)),
-        format!("flight time  {} s", landing.flight_time),
+        format!("flight time  {} s", shortest(landing.flight_time)),
+    ];
+    lines.extend(turn);
+    lines.extend([
         format!("attitude     w {w}  x {x}  y {y}  z {z}"),
         moments(&landing.coin, &toss.body),
         format!("solver       {}{scheme}", landing.solver),
-    ];
+    ]);
     if let (Some(cos_tilt), Some(attitude)) = (landing.error_bound, landing.attitude_error_bound) {
         lines.push(format!("error bound  {cos_tilt:.1e} of cos θ, {attitude:.1e} of the attitude's quaternion"));
     }
@@ -71,7 +75,9 @@ fn text(landing: &Landing, toss: &Toss) -> String {
 
 fn moments(Moments { i1, i2, i3, inertia }: &Moments, body: &Body) -> String {
     match (body.coin(), inertia) {
-        (Some(coin), _) => format!("coin         I1 {i1:e} kg m², I3 {i3:e} kg m², k = {}", coin.inertia_ratio()),
+        (Some(coin), _) => {
+            format!("coin         I1 {i1:e} kg m², I3 {i3:e} kg m², k = {}", shortest(coin.inertia_ratio()))
+        }
         (None, None) => format!("body         I1 {i1:e} kg m², I2 {i2:e} kg m², I3 {i3:e} kg m²"),
         (None, Some(_)) => format!("body         principal moments {i1:e}, {i2:e} and {i3:e} kg m²"),
     }
@@ -86,11 +92,6 @@ fn changes(landing: &Landing, flight: TimeOfFlight) -> String {
     let margin = landing.margin.as_ref().map(|found| format!("margin       {}", margin(found, flight)));
     let unknown = || "sensitivity  beyond the range of numbers".to_owned();
     margin.or_else(|| landing.sensitivity.as_ref().map(slopes)).unwrap_or_else(unknown)
-}
-
-/// The shortest digits that read back as the same number, with an exponent if it is tiny.
-fn shortest(number: f64) -> String {
-    if number != 0.0 && number.abs() < 1e-4 { format!("{number:e}") } else { number.to_string() }
 }
 
 /// In two lines, which the column of the answers fits.

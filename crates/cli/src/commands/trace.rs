@@ -1,12 +1,15 @@
 //! `unfair-toss trace` prints the flight of a coin at equally spaced times, and draws it on request. LF below is the
 //! laboratory frame, whose z axis points up.
 
+use std::io::Write;
+
 use serde::Serialize;
 use toss::defaults::TRACE_POINTS;
 use toss::quantity::Dimension;
-use toss::trace::{EnclosedPoint, MOST_POINTS, trace_enclosed, trace_enclosed_every, trace_every};
-use toss::{Registry, Solver, Toss, TracePoint, trace};
+use toss::trace::{EnclosedPoint, MOST_POINTS, Times, enclosed_points, trace_points};
+use toss::{Error, QuaternionSolver, Registry, Solver, Toss, TracePoint, trace};
 
+use crate::Streams;
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
@@ -51,49 +54,80 @@ struct Points<'a> {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
         self.series.validate()?;
-        let (toss, backend) = self.flight.parts(registry)?;
-        let points = self.flight(registry, &toss, backend.solver())?;
+        let toss = self.flight.toss.toss()?;
+        let prover = self.prove.then(|| self.flight.solver.prover(registry)).transpose()?;
+        let backend = self.flight.solver.backend_of_outcomes(registry)?;
+        let solver = backend.solver();
+        let mut points = self.points(&toss, solver, prover.as_ref())?;
+        if self.series.is_csv_alone() {
+            return print_csv(points, streams.out);
+        }
+        let points = points.by_ref().collect::<Result<Vec<_>, _>>()?;
         let data = |format| match format {
             DataFormat::Csv => csv(&points),
-            DataFormat::Json => output::json(input, &Points { solver: backend.solver().name(), points: &points }),
+            DataFormat::Json => output::json(input, &Points { solver: solver.name(), points: &points }),
         };
         self.series.answer(data, || {
             // As many points as the motion needs, whatever number is printed.
-            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
-            let solver = backend.solver();
+            let drawn = trace(solver, &toss, chart::points_to_draw(&toss))?;
             let scheme = solver.stepping().map(|stepping| format!(", {}", stepping.scheme())).unwrap_or_default();
             let by = format!("solver {}{scheme}", solver.name());
             Ok(chart::flight(&drawn, &toss, solver.tilt(&toss)?.outcome(), (&self.flight.toss.words(), &by))?)
         })
     }
 
-    /// The points, with their bounds if they are asked for.
-    fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Point>, Failure> {
+    /// The points, with their bounds if there is a `prover`. Each is computed when it is asked for.
+    fn points<'a>(
+        &self,
+        toss: &'a Toss,
+        solver: &'a dyn Solver,
+        prover: Option<&'a QuaternionSolver>,
+    ) -> Result<Box<dyn Iterator<Item = Result<Point, Error>> + 'a>, Failure> {
         // Who asks for a chart alone may not care for the number of points.
-        let points = self.points.or(self.series.has_chart().then_some(TRACE_POINTS));
+        let number = self.points.or(self.series.has_chart().then_some(TRACE_POINTS)).map(Times::Number);
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
-        if self.prove {
-            let solver = self.flight.solver.prover(registry)?;
-            let enclosed = match (points, self.dt) {
-                (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
-                (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,
-            };
-            let bounded = |EnclosedPoint { point, certificate }| Point {
-                at: point,
-                error_bound: Some(certificate.error_bound()),
-                attitude_error_bound: Some(certificate.attitude_error_bound()),
-            };
-            return Ok(enclosed.into_iter().map(bounded).collect());
-        }
-        let flight = match (points, self.dt) {
-            (_, Some(step)) => trace_every(solver, toss, step)?,
-            (points, None) => trace(solver, toss, points.ok_or_else(missing)?)?,
+        let times = self.dt.map(Times::Every).or(number).ok_or_else(missing)?;
+        let Some(prover) = prover else {
+            let point = |at| Point { at, error_bound: None, attitude_error_bound: None };
+            return Ok(Box::new(trace_points(solver, toss, times)?.map(move |at| at.map(point))));
         };
-        let point = |at| Point { at, error_bound: None, attitude_error_bound: None };
-        Ok(flight.into_iter().map(point).collect())
+        let bounded = |EnclosedPoint { point, certificate }| Point {
+            at: point,
+            error_bound: Some(certificate.error_bound()),
+            attitude_error_bound: Some(certificate.attitude_error_bound()),
+        };
+        Ok(Box::new(enclosed_points(prover, toss, times)?.map(move |point| point.map(bounded))))
     }
+}
+
+/// Prints the points as they are computed. What was computed before an error is printed before it, and a reader who has gone
+/// wants no more.
+fn print_csv(
+    points: impl Iterator<Item = Result<Point, Error>>,
+    out: &mut (dyn Write + Send),
+) -> Result<String, Failure> {
+    let mut out = std::io::BufWriter::new(out);
+    let mut print = |text: String| match out.write_all(text.as_bytes()) {
+        Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => Ok(false),
+        written => written.map(|()| true).map_err(Failure::Print),
+    };
+    let mut error = None;
+    for (index, point) in points.enumerate() {
+        match point {
+            Ok(point) => {
+                let text = csv(std::slice::from_ref(&point));
+                let row = if index == 0 { text } else { text.split_inclusive('\n').skip(1).collect() };
+                if !print(row)? {
+                    break;
+                }
+            }
+            Err(failed) => error = Some(failed),
+        }
+    }
+    whole_file::unless_closed(out.flush()).map_err(Failure::Print)?;
+    error.map_or(Ok(String::new()), |error| Err(error.into()))
 }
 
 impl Point {

@@ -89,6 +89,35 @@ fn every_turn_is_drawn_whatever_number_of_points_is_printed() {
     assert_eq!(signs.windows(2).filter(|pair| pair[0] != pair[1]).count(), 30);
 }
 
+/// At 100 000 turns in a second, equal times would meet few of its phases; n is at ψ = 80° from S, which leans by 80°.
+#[test]
+fn a_flight_of_many_turns_is_drawn_as_the_band_that_it_fills() {
+    for (flight, [low, high]) in [
+        ("--turn 100000rev/s --wobble 80deg --time 1", [-0.94, 1.0]),
+        ("--turn 1000rev/s --wobble 30deg --time 1", [0.5, 1.0]),
+        ("--turn 61rev/s --wobble 90deg --time 1", [-1.0, 1.0]),
+        ("--coin racket --rate 300,900,40 --time 1", [-1.0, 1.0]),
+    ] {
+        let drawn = svg(&format!("trace {flight} --points 2"));
+        assert!(drawn.len() < 2_000_000, "{flight}: {} bytes", drawn.len());
+        assert!(drawn.contains("fills the band"), "{flight}");
+        let longest = lines_of_colour(&drawn, NORMAL).iter().map(Vec::len).max().unwrap();
+        assert!(longest < 5, "{flight}: a line of {longest} points");
+        let band = drawn.lines().find(|line| line.starts_with("<polygon") && line.contains(NORMAL)).unwrap();
+        let points = band.split_once("points=\"").unwrap().1.split('"').next().unwrap();
+        let heights: Vec<f64> =
+            points.split_whitespace().map(|point| point.split_once(',').unwrap().1.parse().unwrap()).collect();
+        // The axis goes from 1.1 to -1.1; its marks tell the scale.
+        let marks = texts(&drawn);
+        let at =
+            |label: &str| f64::from(marks.iter().filter(|(.., text)| text == label).map(|mark| mark.1).max().unwrap());
+        let (unit, zero) = (2.0 * (at("-1.0") - at("-0.5")), 2.0 * at("-0.5") - at("-1.0"));
+        let ends = [heights.iter().copied().fold(0.0, f64::max), heights.iter().copied().fold(f64::MAX, f64::min)];
+        let [lowest, highest] = ends.map(|height| (zero - height) / unit);
+        assert!((lowest - low).abs() < 0.03 && (highest - high).abs() < 0.03, "{flight}: {lowest} to {highest}");
+    }
+}
+
 #[test]
 fn words_and_legend_stand_beside_the_flight() {
     let svg = svg("trace --rate 2,30,9 --tilt 1.2 --coin us-quarter --speed 3 --points 2");
@@ -120,6 +149,14 @@ fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
             "ωx 0:9:3, ωy 0, ωz 0rpm:9rpm:3, v0 3:5",
         ),
         ("convergence --space tails --steps 3", "P(heads) of the first n launches, space tails"),
+        (
+            "convergence --rate-x 0:40:3 --rate-y 5 --rate-z 20 --speed 3:5:3 --drop 1 --steps 2",
+            "ωx 0:40:3, ωy 5, ωz 20, v0 3:5:3, drop 1 m",
+        ),
+        ("convergence --space tails --coin us-dime --drop 1 --steps 3", "space tails, Coin &apos;us-dime&apos; (k = "),
+        ("errors --space cheated --up-to 9 --replicates 1 --spread 7%", "Error of P(heads), space cheated, spread 7 %"),
+        ("limit --coin us-dime --points 3", "long flights from horizontal, Coin &apos;us-dime&apos;"),
+        ("trace --rate 1,2,3 --speed 3 --drop 50cm --points 2", "ω = (1, 2, 3) rad/s, drop 50 cm: the coin"),
     ] {
         let drawn = svg(command);
         assert!(drawn.contains(words), "{command}: {:?}", texts(&drawn));

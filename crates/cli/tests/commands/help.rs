@@ -87,6 +87,75 @@ fn completions_and_manual_pages_name_the_options() {
     }
 }
 
+/// What bash offers for the last word of a command line, by the script.
+#[cfg(unix)]
+fn offered(script: &std::path::Path, line: &str) -> Vec<String> {
+    const ASK: &str = r#"
+        source "$1"; shift
+        [[ $(complete -p unfair-toss) =~ -F\ ([^ ]+) ]]
+        COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1))
+        "${BASH_REMATCH[1]}" unfair-toss "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}" 2>/dev/null
+        printf '%s\n' "${COMPREPLY[@]}""#;
+    let mut bash = std::process::Command::new("bash");
+    bash.args(["--norc", "-c", ASK, "bash"]).arg(script).arg("unfair-toss").args(line.split(' '));
+    stdout(&bash.output().expect("bash starts")).lines().map(str::to_owned).collect()
+}
+
+#[test]
+#[cfg(unix)]
+fn bash_completes_options_and_their_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("unfair-toss.bash");
+    std::fs::write(&script, run("completions bash").stdout).unwrap();
+    for (line, expected) in [
+        ("pro", "probability"),
+        ("toss --tur", "--turn"),
+        ("toss --rate 1,2,3 --wob", "--wobble"),
+        ("toss --coin us-q", "us-quarter us-quarter-engraved"),
+        ("probability --space pap", "paper-fig4"),
+        ("toss --solver q", "quaternion"),
+        ("plan --solver e", "euler"),
+        ("toss --solver quaternion --scheme dop", "dop853 dopri5"),
+        ("compare --formulation a", "all"),
+        ("toss --format j", "json"),
+        ("trace --format c", "csv"),
+        ("probability --method exact", "exact-speed"),
+        ("map --across rate_", "rate_x rate_y rate_z"),
+        ("plan --want att", "attitude"),
+        ("man pro", "probability"),
+        ("help pro", "probability"),
+        ("completions z", "zsh"),
+    ] {
+        assert_eq!(offered(&script, line).join(" "), expected, "{line}");
+    }
+    // A number is no file.
+    assert_eq!(offered(&script, "toss --rate "), [""]);
+}
+
+#[test]
+fn manual_pages_keep_units_and_name_no_page_that_does_not_exist() {
+    let pages = COMMANDS.split(' ').map(|command| (command, stdout(&run(&format!("man {command}")))));
+    for (command, page) in pages {
+        let headings: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix(".SH ")).collect();
+        assert_eq!(headings[..3], ["NAME", "SYNOPSIS", "DESCRIPTION"], "{command}");
+        assert!(headings.ends_with(&["EXAMPLES"]) && !headings.contains(&"EXTRA"), "{command}: {headings:?}");
+        for heading in headings {
+            assert!(heading.chars().all(|letter| letter.is_ascii_uppercase() || " \"".contains(letter)), "{heading}");
+        }
+        assert!(page.contains(&format!("unfair\\-toss {command}")), "{command}");
+    }
+    let toss = stdout(&run("man toss"));
+    for words in
+        [".SH UNITS", "2.4m/s", "1.7g·cm²", ".SH OUTPUT\n.PP\nHeads: ", "\\-\\-coin us\\-quarter \\-\\-turn 38rev/s"]
+    {
+        assert!(toss.contains(words), "{words}: {toss}");
+    }
+    let whole = stdout(&run("man"));
+    let named = whole.lines().filter_map(|line| line.strip_prefix("unfair\\-toss\\-")?.strip_suffix("(1)"));
+    assert_eq!(named.collect::<Vec<_>>().join(" "), COMMANDS);
+    assert!(stderr(&run("man help")).contains("command = 'help' is unknown"));
+}
+
 #[test]
 fn method_is_an_alias_of_scheme() {
     for command in ["toss --rate 2,5,1 --time 0.4", "trace --rate 2,5,1 --time 0.4 --points 3"] {

@@ -11,6 +11,7 @@ mod flips;
 mod grammar;
 mod help;
 mod json;
+mod options;
 #[cfg(unix)]
 mod outputs;
 mod refusals;

@@ -4,6 +4,7 @@
 //! what it should write through could not harm the machine, whoever runs the test.
 
 use std::fs::{self, OpenOptions};
+use std::io::BufRead;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -24,6 +25,26 @@ fn program(arguments: &str) -> Command {
 
 fn drawn(path: &Path) -> Output {
     run(&format!("{MAP} --svg {}", path.display()))
+}
+
+/// The whole flight takes minutes.
+#[test]
+fn a_trace_is_printed_as_it_is_computed_and_ends_when_its_reader_has_gone() {
+    let trace = "trace --rate 2000,500,3000 --time 10 --solver quaternion --prove --points 1000000";
+    let mut running = program(trace).stdout(Stdio::piped()).spawn().unwrap();
+    let mut lines = std::io::BufReader::new(running.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().ends_with("cos_tilt,error_bound,attitude_error_bound"));
+    assert!(lines.next().unwrap().unwrap().starts_with("0.0,1.0,"));
+    drop(lines);
+    assert_eq!(running.wait().unwrap().code(), Some(0));
+}
+
+/// A singular point comes after the launch.
+#[test]
+fn the_points_before_an_error_are_printed_before_it() {
+    let output = run("trace --rate 1,0,0 --tilt 1 --time 9 --points 6 --solver euler --formulation vertical");
+    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+    assert!(stdout(&output).lines().count() > 1 && stderr(&output).starts_with("error: "), "{}", stdout(&output));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{assert_near, json, run, stderr};
+use crate::common::{assert_near, json, run, stderr, stdout};
 use serde_json::json as value;
 
 /// The input of a toss as its answer repeats it: with the units that were typed.
@@ -55,6 +55,25 @@ fn turn_and_wobble_stand_for_the_rate_that_they_give() {
         let output = run(&format!("{command} --turn 1rev/s --wobble 60deg"));
         assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
     }
+}
+
+/// Who writes 38 may mean turns.
+#[test]
+fn a_turn_is_said_as_it_was_understood() {
+    for command in [
+        "toss --speed 2.4",
+        "spread --heads 0.9 --speed 2.4 --points 64",
+        "intervals --speed 2:3",
+        "probability --speed 2:3 --accuracy 1e-2",
+        "probability --speed 2:3 --method random --points 9 --solver quaternion --prove",
+    ] {
+        for (turn, words) in [("38", "6.05 rev/s = 38 rad/s"), ("38rev/s", "38 rev/s = 238.76 rad/s")] {
+            let text = stdout(&run(&format!("{command} --turn {turn} --wobble 60deg")));
+            assert!(text.contains(&format!("\nturn         {words}\n")), "{command}: {text}");
+        }
+    }
+    assert!(!stdout(&run("toss --rate 1,1,2.5 --speed 3")).contains("turn"));
+    assert!(stdout(&run("toss --rate 1,0,1 --time 1e-307")).contains("\nflight time  1e-307 s\n"));
 }
 
 /// A coin that is flipped at a quarter of a turn a second stands on its edge after one second. Rounded to rad/s, or with a

@@ -59,6 +59,7 @@ fn standard_streams(case: &Case, ran: &Ran) -> Option<String> {
     let answered = ran.code == Some(0);
     // Rows are printed as they come, so that some may stand before an error.
     let in_rows = case.command() == "sample";
+    let is_trace = case.command() == "trace";
     match (answered, case.wants_json()) {
         (true, _) if out.trim().is_empty() && !in_rows => Some("answered nothing".to_owned()),
         (true, _) if !err.is_empty() => Some(format!("answered with a complaint: {err}")),
@@ -70,7 +71,7 @@ fn standard_streams(case: &Case, ran: &Ran) -> Option<String> {
             out.lines().enumerate().find_map(|(at, line)| json_value(case, line, at == rows))
         }
         (_, true) => json_value(case, out, !answered),
-        (false, false) if !out.is_empty() && !in_rows => Some("failed and printed an answer".to_owned()),
+        (false, false) if !out.is_empty() && !in_rows && !is_trace => Some("failed and printed an answer".to_owned()),
         (true, false) => words(out).find_map(no_number),
         (false, false) => None,
     }

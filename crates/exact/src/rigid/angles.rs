@@ -167,7 +167,10 @@ fn departure(toss: &Toss) -> EulerAngles {
     let attitude = toss.launch.attitude();
     let [w, x, y, z] = attitude.components();
     let rate = toss.launch.rate();
-    let about = Attitude::half_turn(&(rate / power_of_two_scale(rate.amax())));
+    // A body at rest does not depart, and what its attitude does not tell is 0.
+    let is_at_rest = rate.amax() == 0.0;
+    let about =
+        if is_at_rest { Attitude::IDENTITY } else { Attitude::half_turn(&(rate / power_of_two_scale(rate.amax()))) };
     let [w1, x1, y1, z1] = (attitude * about).components();
     let argument = |[re, im]: [f64; 2], [re1, im1]: [f64; 2]| {
         if re == 0.0 && im == 0.0 { im1.atan2(re1) } else { im.atan2(re) }
@@ -201,9 +204,15 @@ mod tests {
     /// The closed form of a coin counts the turns otherwise: by phases.
     #[test]
     fn a_body_that_is_nearly_a_coin_turns_as_often_as_the_coin() {
-        for (rate, tilt) in
-            [([9.0, 4.0, 3.0], 0.0), ([9.0, 4.0, 3.0], 0.4), ([0.0, 30.0, 0.5], 0.0), ([1.0, -2.0, -40.0], 2.8)]
-        {
+        for (rate, tilt) in [
+            ([9.0, 4.0, 3.0], 0.0),
+            ([9.0, 4.0, 3.0], 0.4),
+            ([0.0, 30.0, 0.5], 0.0),
+            ([1.0, -2.0, -40.0], 2.8),
+            ([0.0; 3], 0.0),
+            ([0.0; 3], 0.4),
+            ([0.0; 3], std::f64::consts::PI),
+        ] {
             let coin = Coin::PAPER;
             let launch = toss([1.0, 2.0, 2.5], rate, tilt).launch;
             let motion = CoinMotion::new(&CoinToss { coin, launch });
