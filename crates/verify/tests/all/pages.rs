@@ -144,7 +144,7 @@ fn the_template_passes_in_a_folder_of_its_own_and_becomes_worse_when_its_program
     let (code, text) = verify(&format!("sh {check} --only {one}"));
     assert!(code == Some(3) && text.matches("WORSE than the baseline: 1").count() == 2, "{code:?} {text}");
     assert_eq!(text.matches("::warning title=random-cos-tilt / command/own").count(), 2, "{text}");
-    let wrong = file("solver.py").replace("(1 - k) * z))\n    error", "(1 + k) * z))\n    error");
+    let wrong = file("solver.py").replace("turn(x, y, k * z)", "turn(x, y, z)");
     assert_ne!(wrong, file("solver.py"));
     std::fs::write(folder.path().join("solver.py"), wrong).expect("a program");
     let (_, text) = verify(&format!("sh {check} --only {one}"));
