@@ -20,6 +20,7 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("README.md", "rust", 1, "xtask/tests/downstream.rs", "runs it in a crate outside the workspace"),
     ("README.md", "python", 1, "bindings/python/tests/test_package.py", "runs it"),
     ("docs/ci.md", "sh", 1, "crates/verify/tests/all/pages.rs", "runs them in their order"),
+    ("docs/ci.md", "sh", 1, "crates/verify/tests/all/pages.rs", "runs the template, without building the checks"),
     ("docs/ci.md", "yaml", 1, "crates/verify/tests/all/pages.rs", "runs the options of the workflow"),
     ("docs/ci.md", "yaml", 1, "", "it needs GitLab; its options are among those of the workflow"),
     ("docs/more-machines.md", "python", 1, "bindings/python/tests/test_more_machines.py", "runs it, with less to do"),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use verify::files;
+use verify::judge::record::parse_samples;
 use verify::measure::work_precision::Sample;
 
 use crate::contest::Contest;
@@ -31,6 +32,6 @@ pub fn newest(folder: &Path) -> anyhow::Result<Option<(Contest, Vec<Sample>)>> {
     let Some(day) = days.filter(|day| day.join(CONTEST).exists()).max() else { return Ok(None) };
     let read = |path: PathBuf| files::read(&path).with_context(|| format!("in {}", path.display()));
     let contest = serde_json::from_str(&read(day.join(CONTEST))?).with_context(|| format!("in {}", day.display()))?;
-    let samples = read(day.join(SAMPLES))?.lines().map(serde_json::from_str).collect::<Result<_, _>>();
-    Ok(Some((contest, samples.with_context(|| format!("in {}", day.display()))?)))
+    let samples = parse_samples(&read(day.join(SAMPLES))?).with_context(|| format!("in {}", day.display()))?;
+    Ok(Some((contest, samples)))
 }

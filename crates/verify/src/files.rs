@@ -2,17 +2,29 @@
 //! that an interrupted run leaves no half of a report or baseline. It prints, too, without a panic where nothing can be
 //! printed.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use anyhow::Context;
 
-/// Reads the text of the file at `path`.
+/// Reads the text of the file at `path`. A byte order mark, with which some editors begin a file, is left out.
 ///
 /// # Errors
 /// If the file can't be read.
 pub fn read(path: &Path) -> anyhow::Result<String> {
-    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// As [`read`]; `None` if nothing has this path. A link to nothing is something, whose text can't be read.
+///
+/// # Errors
+/// If there is something that can't be read.
+pub fn read_if_any(path: &Path) -> anyhow::Result<Option<String>> {
+    match path.symlink_metadata() {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        _ => read(path).map(Some),
+    }
 }
 
 /// Prints `text` on standard output; a reader that has gone away is no error.

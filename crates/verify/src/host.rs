@@ -3,7 +3,10 @@
 
 use std::process::Command;
 
+use anyhow::{Context, ensure};
 use serde::{Deserialize, Serialize};
+
+use crate::shown::shown;
 
 /// Version of the layout of records.
 const SCHEMA: u32 = 1;
@@ -28,6 +31,19 @@ pub struct Host {
 }
 
 impl Host {
+    /// The host that the JSON in `text` describes.
+    ///
+    /// # Errors
+    /// If it describes none, or one of another layout.
+    pub fn parse(text: &str) -> anyhow::Result<Self> {
+        let mut host: Self = serde_json::from_str(text).context("it describes no host")?;
+        ensure!(host.schema == SCHEMA, "schema = {}: expected {SCHEMA}", host.schema);
+        for part in [&mut host.date, &mut host.commit, &mut host.rustc, &mut host.target, &mut host.cpu] {
+            *part = shown(part);
+        }
+        Ok(host)
+    }
+
     /// This machine, today. Each text that cannot be found out is `unknown`.
     pub fn here() -> Self {
         // `--bless` writes into `validation`, and that is no change of the code.
@@ -52,11 +68,11 @@ fn unknown() -> String {
 
 fn output(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok().filter(|output| output.status.success())?;
-    Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+    Some(shown(String::from_utf8(output.stdout).ok()?.trim()))
 }
 
 fn cpu() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(':')?.1.trim().to_owned())
+    Some(shown(line.split_once(':')?.1.trim()))
 }

@@ -27,9 +27,11 @@ pub mod judge;
 pub mod measure;
 pub mod process;
 pub mod render;
+mod shown;
 mod slope;
 mod spaces;
 pub mod suite;
+mod table;
 pub mod watch;
 
 pub use commands::main;

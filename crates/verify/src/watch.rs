@@ -38,7 +38,7 @@ impl End {
             Self::Measured(measured) => {
                 judge.rows(check, measured).into_iter().chain(timing.row().map(of_time)).collect()
             }
-            Self::Failed(why) => vec![of_time(timing.failing(why))],
+            Self::Failed(why) => vec![of_time(timing.failing(&why))],
         }
     }
 }

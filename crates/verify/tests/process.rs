@@ -13,7 +13,7 @@ use toss::{
 };
 use verify::process::{Limits, OWN, Program};
 
-use programs::{answering, example, has_python};
+use programs::{answering, example, has};
 
 /// Limits that keep the tests short.
 const SHORT: Limits = Limits { answer: Duration::from_millis(500), total: Duration::from_secs(60), memory: 200 << 20 };
@@ -218,7 +218,7 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
 
 #[test]
 fn the_program_of_the_documentation_lands_as_the_exact_motion() {
-    if !has_python() {
+    if !has("python3") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -11,12 +11,12 @@ use std::process::Command;
 use anyhow::{Context, bail};
 use rayon::ThreadPoolBuilder;
 use sampling::{Plan, Rest, Sampler, Scrambled};
-use serde::{Deserialize, Serialize};
 use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR, Tilt};
 
 use super::tosses::Columns;
 use crate::files;
 use crate::spaces::box_of_launches;
+use crate::table::{Kind, Table};
 
 /// Number of tosses in a work of many tosses.
 const TOSSES: usize = 512;
@@ -161,12 +161,8 @@ fn tosses(name: &str) -> usize {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Instructions(BTreeMap<String, f64>);
 
-/// A line of the baseline.
-#[derive(Serialize, Deserialize)]
-struct Line {
-    work: String,
-    instructions: f64,
-}
+/// The columns of the baseline.
+const COLUMNS: Table<1, 1> = Table { name: ["work"], numbers: [("instructions", Kind::Number)] };
 
 impl Instructions {
     /// Counts the instructions of all works that this machine can do, by running this program under valgrind.
@@ -180,12 +176,9 @@ impl Instructions {
 
     /// Reads the baseline from the file at `path`; empty if there is no file.
     pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
-        if !path.exists() {
-            return Ok(Self::default());
-        }
-        let mut reader = csv::Reader::from_path(path)?;
-        let lines = reader.deserialize().map(|line| line.map(|Line { work, instructions }| (work, instructions)));
-        Ok(Self(lines.collect::<Result<_, _>>()?))
+        let Some(text) = files::read_if_any(path)? else { return Ok(Self::default()) };
+        let rows = COLUMNS.read(&text).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(Self(rows.into_iter().filter_map(|([work], [count])| Some((work, count?))).collect()))
     }
 
     /// Writes the baseline with counts that are smaller or new; larger ones are not taken over.
@@ -194,11 +187,8 @@ impl Instructions {
         for (work, count) in &self.0 {
             best.entry(work.clone()).and_modify(|old| *old = old.min(*count)).or_insert(*count);
         }
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for (work, count) in best {
-            writer.serialize(Line { work, instructions: (10.0 * count).round() / 10.0 })?;
-        }
-        files::write(path, &String::from_utf8(writer.into_inner()?)?)
+        let row = |(work, count): (String, f64)| ([work], [Some((10.0 * count).round() / 10.0)]);
+        files::write(path, &COLUMNS.text(&best.into_iter().map(row).collect())?)
     }
 
     /// The table of counts beside `baseline`, and whether a work takes more instructions than allowed.

@@ -15,6 +15,7 @@ use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, proofs};
 use crate::render::charts::{self, Palette};
 use crate::render::text;
+use crate::shown::shown;
 use crate::suite::Suite;
 
 /// Draw a figure that repeats exactly
@@ -91,6 +92,6 @@ pub(super) fn history(suite: &Suite, out: &Path) -> anyhow::Result<u8> {
     ensure!(!records.is_empty(), "there are no records yet; `{}` writes one", suite.commands().bless());
     let path = out.join("history.svg");
     files::write(&path, &charts::history(&records, &Palette::new(suite.registry().entries()))?)?;
-    files::print(&format!("{}\nchart: {}\n", text::history(&records), path.display()))?;
+    files::print(&format!("{}\nchart: {}\n", text::history(&records), shown(&path.display().to_string())))?;
     Ok(0)
 }

@@ -8,9 +8,12 @@ mod run;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::error::ContextValue;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::files;
+use crate::shown::shown;
 use crate::suite::Suite;
 
 /// Arguments that are not understood.
@@ -34,7 +37,7 @@ struct Program {
 #[derive(Debug, Args)]
 struct Folders {
     /// Read limits, baseline and records from this folder, and write the latter two there [default: validation]
-    #[arg(long, global = true, value_name = "FOLDER")]
+    #[arg(long, global = true, value_name = "FOLDER", value_parser = PathBufValueParser::new().try_map(existing))]
     validation: Option<PathBuf>,
     /// Write reports and charts into this folder
     #[arg(long, global = true, value_name = "FOLDER", default_value = "target/verify")]
@@ -64,26 +67,43 @@ pub fn main(suite: Suite) -> ExitCode {
         Err(asked) if !asked.use_stderr() => files::printed(whole_file::unless_closed(asked.print())).map(|()| 0),
         // Without a standard error there is nobody to say it to.
         Err(error) => {
-            let _ = error.print();
+            let _ = in_one_line(error).print();
             Ok(BAD_USAGE)
         }
     };
     ExitCode::from(ended.unwrap_or_else(|error| {
-        whole_file::report(format_args!("{error:#}"));
+        whole_file::report(shown(&format!("{error:#}")));
         COULD_NOT_RUN
     }))
+}
+
+/// A folder that is there. In a name with a slip there would be no limits and no baseline, and nothing would be compared.
+fn existing(folder: PathBuf) -> Result<PathBuf, &'static str> {
+    if folder.is_dir() { Ok(folder) } else { Err("expected a folder that exists") }
+}
+
+/// The same error, with the arguments in it in one line.
+fn in_one_line(mut error: clap::Error) -> clap::Error {
+    let arguments = error.context().filter_map(|(kind, value)| match value {
+        ContextValue::String(text) => Some((kind, ContextValue::String(shown(text)))),
+        _ => None,
+    });
+    for (kind, value) in arguments.collect::<Vec<_>>() {
+        error.insert(kind, value);
+    }
+    error
 }
 
 impl Program {
     /// Runs the command and returns the exit code.
     fn run(self, suite: Suite) -> anyhow::Result<u8> {
         let Folders { validation, out } = self.folders;
-        let suite = match validation {
+        let suite = match &validation {
             Some(folder) => suite.folder(folder),
             None => suite,
         };
         match self.command.unwrap_or(Command::Run(self.run)) {
-            Command::Run(command) => command.run(suite, &out),
+            Command::Run(command) => command.run(suite, validation.as_deref(), &out),
             Command::Bench(command) => command.run(&suite),
             Command::Work(command) => command.run(),
             Command::History => figures::history(&suite, &out),

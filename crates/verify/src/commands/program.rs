@@ -8,6 +8,7 @@ use toss::{InputError, Registry, SolverEntry};
 
 use crate::measure::replay::Commands;
 use crate::process::{Limits, Program};
+use crate::shown::{is_unseen, shown};
 use crate::suite::Suite;
 
 /// The name of the program in rows.
@@ -40,12 +41,11 @@ impl Foreign {
         self.command.is_some()
     }
 
-    /// The suite of the program, or `suite` without one. Its baseline and records are in a folder below `out`, unless
-    /// `suite` has another one than the standard suite.
-    pub(super) fn in_place_of(&self, suite: Suite, out: &Path) -> Result<Suite, InputError> {
+    /// The suite of the program, or `suite` without one. Its limits, baseline and records are in the folder that was
+    /// `named`; without one, those of the program of this workspace are in a folder below `out`.
+    pub(super) fn in_place_of(&self, suite: Suite, named: Option<&Path>, out: &Path) -> Result<Suite, InputError> {
         let Some(entry) = self.entry()? else { return Ok(suite) };
-        let is_standard =
-            *suite.commands() == Commands::of_this_workspace() && suite.data() == Suite::standard().data();
+        let is_standard = *suite.commands() == Commands::of_this_workspace() && named.is_none();
         let folder = if is_standard { out.join(NAME) } else { suite.data().to_owned() };
         let commands = Commands { options: self.options(), ..suite.commands().clone() };
         Ok(Suite::new(Registry::empty().with(entry)?).folder(folder).repeated_by(commands))
@@ -53,7 +53,7 @@ impl Foreign {
 
     /// The options that give the same program, for the command that repeats a row.
     fn options(&self) -> String {
-        let quoted = |line: &String| format!(" --command '{}'", line.replace('\'', "'\\''"));
+        let quoted = |line: &String| format!(" --command {}", quoted(line));
         let seconds = |name: &str, value: Option<Duration>| {
             value.map(|value| format!(" --{name}-seconds {:?}", value.as_secs_f64())).unwrap_or_default()
         };
@@ -76,13 +76,27 @@ impl Foreign {
             total: self.total_seconds.unwrap_or(usual.total),
             memory: self.memory_mb.map_or(usual.memory, |megabytes| megabytes << 20),
         };
-        let program = Program::new(command).with_limits(limits);
+        let program = Program::new(command).with_summary(format!("the program `{}`", shown(command)));
+        let program = program.with_limits(limits);
         let program = match self.claim {
             Some(claim) => program.with_claim(claim)?,
             None => program,
         };
         Ok(Some(program.entry(NAME)))
     }
+}
+
+/// A line as a word of the shell. With controls in it, such as an end of line, it is written as bash and zsh read it.
+fn quoted(line: &str) -> String {
+    if !line.chars().any(is_unseen) {
+        return format!("'{}'", line.replace('\'', "'\\''"));
+    }
+    let escaped = |character: char| match character {
+        '\\' | '\'' => format!("\\{character}"),
+        seen if !is_unseen(seen) => seen.to_string(),
+        unseen => format!("\\U{:08x}", u32::from(unseen)),
+    };
+    format!("$'{}'", line.chars().map(escaped).collect::<String>())
 }
 
 /// A time from a millisecond to a day.

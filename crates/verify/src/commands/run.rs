@@ -14,9 +14,10 @@ use crate::measure::atlas;
 use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
 use crate::measure::reference::Reference;
-use crate::measure::run::{Answer, Run};
+use crate::measure::run::Run;
 use crate::render::report::{PROPOSAL, Report, Verdict};
 use crate::render::{github, junit, text, words};
+use crate::shown::shown;
 use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
@@ -24,7 +25,7 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 ///
 /// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
 ///
-/// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss; 2 bad usage; 3 accuracy or work is worse than the
+/// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss is wrong or without an answer; 2 bad usage; 3 accuracy or work is worse than the
 /// baseline, though within limits; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct RunArgs {
@@ -49,6 +50,10 @@ pub(super) struct RunArgs {
     /// Multiply the time limit of every check, for a slow machine or a slow solver
     #[arg(long, value_name = "FACTOR", value_parser = time_factor)]
     time_factor: Option<f64>,
+    /// An error is worse than the baseline above so many times the accepted one [default: 1.25]; 4 allows for another
+    /// machine's last digits
+    #[arg(long, value_name = "RATIO", value_parser = worse_above)]
+    worse_above: Option<f64>,
     /// With --replay: print what this row, given as CHECK / SUBJECT, measures on the toss, and the verdict
     #[arg(long, value_name = "ROW", requires = "replay", value_parser = row)]
     row: Option<RowName>,
@@ -64,7 +69,7 @@ struct RowName(&'static Check, String);
 
 /// What is done instead of running the checks.
 #[derive(Debug, Args)]
-#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor"])]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor", "worse_above"])]
 struct Instead {
     /// List the checks and what they claim
     #[arg(long, conflicts_with = "command")]
@@ -89,7 +94,7 @@ enum Format {
 struct Replayed(Toss, Option<StepControl>);
 
 fn input(text: &str) -> Result<Box<Replayed>, String> {
-    let read = case::read_with_settings(text).map_err(|error| format!("{error:#}"));
+    let read = case::read_with_settings(text).map_err(|error| shown(&format!("{error:#}")));
     read.map(|(toss, control)| Box::new(Replayed(toss, control)))
 }
 
@@ -99,7 +104,7 @@ fn row(text: &str) -> Result<RowName, String> {
 }
 
 fn known_check(id: &str) -> Result<&'static Check, String> {
-    check_named(id).map_err(|error| error.to_string())
+    check_named(id).map_err(|error| shown(&error.to_string()))
 }
 
 fn time_factor(text: &str) -> Result<f64, String> {
@@ -107,16 +112,21 @@ fn time_factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "the time factor must be finite and above 0".to_owned())
 }
 
+fn worse_above(text: &str) -> Result<f64, String> {
+    let ratio = text.parse().ok().filter(|ratio: &f64| ratio.is_finite() && *ratio >= 1.0);
+    ratio.ok_or_else(|| "the ratio must be finite and at least 1".to_owned())
+}
+
 /// The environment variable with the name of the file into which a step of GitHub Actions writes its summary.
 const SUMMARY: &str = "GITHUB_STEP_SUMMARY";
 
 impl RunArgs {
     /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
-    pub(super) fn run(&self, suite: Suite, out: &Path) -> anyhow::Result<u8> {
+    pub(super) fn run(&self, suite: Suite, validation: Option<&Path>, out: &Path) -> anyhow::Result<u8> {
         if self.instead.list {
             return list();
         }
-        let suite = self.foreign.in_place_of(suite, out)?;
+        let suite = self.foreign.in_place_of(suite, validation, out)?;
         if let Some(replayed) = &self.instead.replay {
             let (passes, text) = match &self.row {
                 Some(row) => as_row(&suite, replayed, row)?,
@@ -146,8 +156,12 @@ impl RunArgs {
             Some(check) => suite.only(check.id),
             None => suite,
         };
-        match self.time_factor {
+        let suite = match self.time_factor {
             Some(factor) => suite.time_factor(factor),
+            None => suite,
+        };
+        match self.worse_above {
+            Some(ratio) => suite.worse_above(ratio),
             None => suite,
         }
     }
@@ -203,13 +217,13 @@ fn as_row(
 
 /// The answers of every solver, scheme and formulation for one toss, side by side. Below come the deviations that the checks
 /// of the library measure on that toss, a quantity of several sets once: proofs, batches at every SIMD level, margins. They
-/// say nothing about a foreign program. It passes if no solver in its default formulation is wrong without an error.
+/// say nothing about a foreign program. It passes if every solver in its default formulation answers as it should.
 fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -> anyhow::Result<(bool, String)> {
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
     let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, Reference::of(toss)?);
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
-    let passes = !by_default.into_iter().any(|(_, run)| run.answer == Answer::SilentlyWrong);
+    let passes = by_default.into_iter().all(|(_, run)| run.passes());
     let mut table = text::runs(&runs, Conditioning::new(toss)?);
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
         let mut last = None;
@@ -241,7 +255,7 @@ fn measure(suite: &Suite) -> anyhow::Result<Report> {
 
 /// The files that were written, for someone who reads the text.
 fn written(report: &Report, out: &Path) -> String {
-    let line = |what: &str, file: &str| format!("{what}: {}\n", out.join(file).display());
+    let line = |what: &str, file: &str| format!("{what}: {}\n", shown(&out.join(file).display().to_string()));
     let page = line("report", "report.html");
     match report.proposed_limits() {
         Some(_) => page + &line("proposed limits", PROPOSAL),

@@ -10,15 +10,17 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::row::Row;
 use crate::files;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::{Sample, Sweep};
+use crate::table::{Kind, Table};
 
-/// An error is worse if it is more than this many times the accepted one, and better if it is less by the same factor.
-const ERROR_RATIO: f64 = 1.25;
+/// An error is worse if it is more than this many times the accepted one, and better if it is less by the same factor;
+/// [`Baseline::worse_above`] takes another number.
+pub const ERROR_RATIO: f64 = 1.25;
 
 /// The number of calls is worse if it is more than this many times the accepted one, and better if it is less by the
 /// same factor.
@@ -47,17 +49,28 @@ pub struct Entry {
 }
 
 /// Errors and calls by check and subject.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Baseline(BTreeMap<Key, Entry>);
-
-/// A line of the file.
-#[derive(Serialize, Deserialize)]
-struct Line {
-    check: String,
-    subject: String,
-    error: f64,
-    calls: Option<u64>,
+#[derive(Debug, Clone, PartialEq)]
+pub struct Baseline {
+    entries: BTreeMap<Key, Entry>,
+    /// Above so many times the accepted one an error is worse.
+    error_ratio: f64,
 }
+
+impl Default for Baseline {
+    fn default() -> Self {
+        Self { entries: BTreeMap::new(), error_ratio: ERROR_RATIO }
+    }
+}
+
+impl FromIterator<(Key, Entry)> for Baseline {
+    fn from_iter<T: IntoIterator<Item = (Key, Entry)>>(entries: T) -> Self {
+        Self { entries: entries.into_iter().collect(), ..Self::default() }
+    }
+}
+
+/// The columns of the file.
+const COLUMNS: Table<2, 2> =
+    Table { name: ["check", "subject"], numbers: [("error", Kind::Number), ("calls", Kind::CountIfAny)] };
 
 /// The file, in the folder `baseline`, of the baseline for runs at `effort` on this machine's architecture.
 ///
@@ -124,73 +137,77 @@ impl Baseline {
                 }
             }
         }
-        Self(entries)
+        entries.into_iter().collect()
+    }
+
+    /// The same baseline, compared with which an error is worse above `ratio` times the accepted one, and better below it
+    /// by the same factor.
+    #[must_use]
+    pub fn worse_above(self, ratio: f64) -> Self {
+        Self { error_ratio: ratio, ..self }
     }
 
     /// The baseline in the file at `path`; `None` if there is no file.
     ///
     /// # Errors
-    /// If the file can't be read.
+    /// If the file can't be read, or can't be trusted as [`Baseline::parse`] says; the error has the line and the column.
     pub fn read(path: &Path) -> anyhow::Result<Option<Self>> {
-        if !path.exists() {
-            return Ok(None);
-        }
-        Self::parse(&files::read(path)?).map(Some).with_context(|| format!("cannot read {}", path.display()))
+        let Some(text) = files::read_if_any(path)? else { return Ok(None) };
+        Self::parse(&text).map(Some).with_context(|| format!("cannot read {}", path.display()))
     }
 
     /// The baseline that the lines of CSV in `text` describe.
     ///
     /// # Errors
-    /// If a line describes no entry.
+    /// If a number is negative or not finite, two rows have the same name, a column is missing or unknown, or there is no
+    /// row.
     pub fn parse(text: &str) -> anyhow::Result<Self> {
-        let mut entries = BTreeMap::new();
-        for line in csv::Reader::from_reader(text.as_bytes()).deserialize() {
-            let Line { check, subject, error, calls } = line?;
-            entries.insert((check, subject), Entry { error, calls });
-        }
-        Ok(Self(entries))
+        let entry = |([check, subject], [error, calls]): ([String; 2], [Option<f64>; 2])| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the table has whole numbers")]
+            let calls = calls.map(|calls| calls as u64);
+            Some(((check, subject), Entry { error: error?, calls }))
+        };
+        Ok(COLUMNS.read(text)?.into_iter().filter_map(entry).collect())
     }
 
     /// The entries by check and subject.
     pub fn into_entries(self) -> impl Iterator<Item = (String, String, Entry)> {
-        self.0.into_iter().map(|((check, subject), entry)| (check, subject, entry))
+        self.entries.into_iter().map(|((check, subject), entry)| (check, subject, entry))
     }
 
     /// The baseline as CSV, one line per entry.
     ///
     /// # Errors
-    /// Never for plain values.
+    /// If [`Baseline::parse`] would refuse it.
     pub fn csv(&self) -> anyhow::Result<String> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for ((check, subject), Entry { error, calls }) in &self.0 {
-            let (check, subject) = (check.clone(), subject.clone());
-            writer.serialize(Line { check, subject, error: *error, calls: *calls })?;
-        }
-        Ok(String::from_utf8(writer.into_inner()?)?)
+        let row = |((check, subject), Entry { error, calls }): (&Key, &Entry)| {
+            ([check.clone(), subject.clone()], [Some(*error), calls.map(|calls| calls as f64)])
+        };
+        COLUMNS.text(&self.entries.iter().map(row).collect())
     }
 
     /// The error of `subject` under `check`.
     pub fn error(&self, check: &str, subject: &str) -> Option<f64> {
-        self.0.get(&(check.to_owned(), subject.to_owned())).map(|entry| entry.error)
+        self.entries.get(&(check.to_owned(), subject.to_owned())).map(|entry| entry.error)
     }
 
     /// The subjects of `check`.
     pub fn subjects<'a>(&'a self, check: &'a str) -> impl Iterator<Item = &'a str> {
-        self.0.keys().filter(move |key| key.0 == check).map(|key| key.1.as_str())
+        self.entries.keys().filter(move |key| key.0 == check).map(|key| key.1.as_str())
     }
 
     /// What changed from this baseline to what was `found`. If the run was `complete`, entries that it did not find are
     /// gone.
     pub fn moves(&self, found: &Self, complete: bool) -> Vec<Move> {
         let mut moves = Vec::new();
-        for (key, now) in &found.0 {
-            match self.0.get(key) {
+        for (key, now) in &found.entries {
+            match self.entries.get(key) {
                 None => moves.push(Move::new(key, "error", None, Some(now.error), Direction::New)),
-                Some(before) => moves.extend(before.moves(key, now)),
+                Some(before) => moves.extend(before.moves(key, now, self.error_ratio)),
             }
         }
         if complete {
-            let gone = self.0.iter().filter(|(key, _)| !found.0.contains_key(*key));
+            let gone = self.entries.iter().filter(|(key, _)| !found.entries.contains_key(*key));
             moves.extend(gone.map(|(key, before)| Move::new(key, "error", Some(before.error), None, Direction::Gone)));
         }
         moves
@@ -210,10 +227,10 @@ impl Baseline {
     #[must_use]
     pub fn ratcheted(&self, found: &Self) -> Self {
         let accept = |(key, now): (&Key, &Entry)| {
-            let entry = self.0.get(key).map_or(*now, |before| before.ratcheted(key, now));
+            let entry = self.entries.get(key).map_or(*now, |before| before.ratcheted(key, now, self.error_ratio));
             (key.clone(), entry)
         };
-        Self(found.0.iter().map(accept).collect())
+        Self { entries: found.entries.iter().map(accept).collect(), ..*self }
     }
 }
 
@@ -227,8 +244,8 @@ impl Entry {
         }
     }
 
-    fn moves(&self, key: &Key, now: &Self) -> Vec<Move> {
-        let error = direction(self.error, now.error, ERROR_RATIO, ROUNDING);
+    fn moves(&self, key: &Key, now: &Self, error_ratio: f64) -> Vec<Move> {
+        let error = direction(self.error, now.error, error_ratio, ROUNDING);
         let calls = self.calls.zip(now.calls).and_then(|(before, now)| {
             let (before, now) = (before as f64, now as f64);
             Some((before, now, direction(before, now, CALLS_RATIO, 0.0)?))
@@ -238,9 +255,9 @@ impl Entry {
         error.into_iter().chain(calls).collect()
     }
 
-    fn ratcheted(&self, key: &Key, now: &Self) -> Self {
+    fn ratcheted(&self, key: &Key, now: &Self, error_ratio: f64) -> Self {
         let mut kept = *self;
-        for moved in self.moves(key, now).iter().filter(|moved| moved.direction == Direction::Better) {
+        for moved in self.moves(key, now, error_ratio).iter().filter(|moved| moved.direction == Direction::Better) {
             if moved.what == "error" {
                 kept.error = now.error;
             } else {

@@ -8,12 +8,13 @@ use std::collections::btree_map::Entry;
 use std::fmt::Write;
 use std::path::Path;
 
-use anyhow::{Context, ensure};
+use anyhow::{Context, anyhow, ensure};
 use serde::Deserialize;
 
 use super::row::{Row, Status};
 use crate::files;
 use crate::measure::checks::CHECKS;
+use crate::table::line_of;
 
 /// Allowed deviations by check and subject, with the reason for each check's limits.
 #[derive(Debug, Clone, Deserialize)]
@@ -48,7 +49,8 @@ impl Limits {
     /// # Errors
     /// As [`Limits::read`].
     pub fn read_if_any(path: &Path) -> anyhow::Result<Self> {
-        if path.exists() { Self::read(path) } else { Ok(Self(BTreeMap::new())) }
+        let Some(text) = files::read_if_any(path)? else { return Ok(Self(BTreeMap::new())) };
+        Self::parse(&text).with_context(|| format!("in {}", path.display()))
     }
 
     /// The limits of the solvers and libraries of this workspace.
@@ -77,7 +79,10 @@ impl Limits {
     /// # Errors
     /// As [`Limits::read`].
     pub fn parse(text: &str) -> anyhow::Result<Self> {
-        let limits: Self = toml::from_str(text)?;
+        let limits: Self = toml::from_str(text).map_err(|error| {
+            let place = error.span().map(|span| format!("line {}: ", line_of(text, span.start))).unwrap_or_default();
+            anyhow!("{place}{}", error.message())
+        })?;
         for (check, entry) in &limits.0 {
             ensure!(!entry.reason.trim().is_empty(), "[{check}] gives no reason for its limits");
             for (subject, limit) in &entry.allowed {
@@ -110,11 +115,15 @@ impl Limits {
 
 /// The limits for all rows that pass without one, within the ceilings of their checks, as the text of a file of limits;
 /// `None` if there are no such rows. `run` says which run measured them, such as `a standard run on 2026-11-22`.
+///
+/// Where nothing deviated, or the ceiling judges, there is no proposal: on another machine one case could be above a limit
+/// of 0, and what is measured as a part of what the solver claims is limited by 1.
 pub(crate) fn proposed(rows: &[Row], run: &str) -> Option<String> {
     let mut checks: BTreeMap<&str, Vec<(&str, f64)>> = BTreeMap::new();
     for row in rows.iter().filter(|row| matches!(row.status, Status::PassByClaim | Status::NotJudged)) {
         let ceiling = ceiling(&row.check);
-        if let Some(largest) = row.largest.filter(|largest| largest.is_finite() && *largest <= ceiling) {
+        let is_limited = row.limit == Some(ceiling);
+        if let Some(largest) = row.largest.filter(|largest| *largest > 0.0 && *largest <= ceiling && !is_limited) {
             checks.entry(&row.check).or_default().push((&row.subject, limit(largest).min(ceiling)));
         }
     }
@@ -122,9 +131,10 @@ pub(crate) fn proposed(rows: &[Row], run: &str) -> Option<String> {
         return None;
     }
     let mut text = format!(
-        "# Proposed limits, in the unit of each check: twice the largest deviation of {run}, rounded up to one\n\
-         # digit. Read them before you keep them: a limit should be what the solver is meant to reach. Rows that fail\n\
-         # have no proposal.\n"
+        "# Proposed limits, in the unit of each check: twice the largest deviation of {run}, rounded up to two\n\
+         # digits, and at least {ROUNDING:e}, since the last digits differ between machines. Read them before you keep\n\
+         # them: a limit should be what the solver is meant to reach. Rows that fail, in which nothing deviates, or\n\
+         # which the limit of their check judges, have no proposal.\n"
     );
     for (check, limits) in checks {
         let _ = write!(text, "\n[{check}]\nreason = \"Twice the largest deviation of {run}.\"\n[{check}.allowed]\n");
@@ -135,14 +145,17 @@ pub(crate) fn proposed(rows: &[Row], run: &str) -> Option<String> {
     Some(text)
 }
 
-/// Twice `deviation`, rounded up to one digit.
+/// No limit below this one is proposed, because the sine and the cosine of another machine round differently.
+const ROUNDING: f64 = 2e-14;
+
+/// Twice `deviation`, rounded up to two digits, and at least [`ROUNDING`].
 fn limit(deviation: f64) -> f64 {
-    let twice = 2.0 * deviation;
+    let twice = (2.0 * deviation).max(ROUNDING);
     let (digits, exponent) = format!("{twice:e}").split_once('e').map_or((0.0, 0), |(digits, exponent)| {
         (digits.parse::<f64>().unwrap_or(0.0), exponent.parse::<i32>().unwrap_or(0))
     });
     // Digits and exponent are read as one decimal number, so that 3e-12 is the same f64 as in the file.
-    format!("{}e{exponent}", digits.ceil()).parse().unwrap_or(f64::INFINITY)
+    format!("{}e{}", (10.0 * digits).ceil(), exponent - 1).parse().unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]
@@ -155,10 +168,17 @@ mod tests {
     const CHECK: Check = Check::of_solvers("c", Measure::Own(|_| Ok(Vec::new()))).up_to(10.0, "1");
 
     #[test]
-    fn a_limit_is_twice_the_deviation_rounded_up_to_one_digit() {
-        for (deviation, expected) in
-            [(1.5e-12, 3e-12), (1.51e-12, 4e-12), (4.9e-9, 1e-8), (5e-9, 1e-8), (0.0, 0.0), (7.0, 20.0)]
-        {
+    fn a_limit_is_twice_the_deviation_rounded_up_to_two_digits() {
+        for (deviation, expected) in [
+            (1.5e-12, 3e-12),
+            (1.51e-12, 3.1e-12),
+            (4.99e-9, 1e-8),
+            (5e-9, 1e-8),
+            (7.0, 14.0),
+            (7.3, 15.0),
+            (1e-14, 2e-14),
+            (5e-324, 2e-14),
+        ] {
             assert_eq!(limit(deviation), expected, "{deviation:e}");
         }
     }
@@ -171,14 +191,16 @@ mod tests {
                 figure("mine/rk \"4\"", 1.3e-9).claiming(Some(1.0)),
                 figure("mine/order", 0.02).without_claim(),
                 figure("mine/wrong", 1.0).claiming(Some(1e-9)),
+                figure("mine/never", 0.0).claiming(Some(1.0)),
             ]
         };
         let none = Limits::parse("").unwrap();
         let table = proposed(&judge(&CHECK, measured(), &none), "a test").unwrap();
         let rows = judge(&CHECK, measured(), &Limits::parse(&table).unwrap());
         let statuses: Vec<Status> = rows.iter().map(|row| row.status).collect();
-        assert_eq!(statuses, [Status::Pass, Status::Pass, Status::FailByClaim], "{table}");
-        assert_eq!(rows[0].limit, Some(3e-9));
+        assert_eq!(statuses, [Status::Pass, Status::Pass, Status::FailByClaim, Status::PassByClaim], "{table}");
+        assert_eq!(rows[0].limit, Some(2.6e-9));
+        assert!(!table.contains("never"), "{table}");
         assert_eq!(proposed(&rows[..2], "a test"), None, "rows with limits need no proposal");
     }
 }

@@ -11,6 +11,7 @@ use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::effort::Effort;
 use crate::measure::replay::{Commands, Replay};
 use crate::measure::trial::{Claim, Measurement};
+use crate::shown::shown;
 
 /// A limit that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;
@@ -121,13 +122,7 @@ impl Judge<'_> {
 impl Row {
     /// A row that says something of the suite itself, with nothing else in it.
     pub(super) fn of_the_suite(check: &str, claim: &str, subject: &str, status: Status) -> Self {
-        Self {
-            check: check.to_owned(),
-            claim: claim.to_owned(),
-            subject: subject.to_owned(),
-            status,
-            ..Self::default()
-        }
+        Self { check: shown(check), claim: claim.to_owned(), subject: shown(subject), status, ..Self::default() }
     }
 
     /// What was measured, divided by the limit: above 1 for what is over its limit, 0 if nothing deviates or nothing is
@@ -177,8 +172,11 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         (None, Claim::NoEstimate) => (measured, None, worst, Status::NoClaim),
         (None, Claim::NoSolver) => (measured, None, worst, Status::NoLimit),
     };
-    let worst = worst.map(|worst| (Some(worst.input), worst.failure, worst.replay));
+    let worst = worst.map(|worst| (Some(shown(&worst.input)), worst.failure.as_deref().map(shown), worst.replay));
     let (worst_input, failure, replay) = worst.unwrap_or_default();
+    // A toss that is flown again by itself is judged by the claim. What a limit decides, the whole check repeats.
+    let by_limit = status == Status::Fail || limit == Some(ceiling);
+    let replay = replay.filter(|replay| status.passes() || replay.row.is_some() || failure.is_some() || !by_limit);
     Row {
         check: check.id.to_owned(),
         claim: check.claim.to_owned(),
@@ -195,7 +193,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         failure,
         replay: Some(judge.command(check, replay.as_ref())),
         largest,
-        subject,
+        subject: shown(&subject),
     }
 }
 

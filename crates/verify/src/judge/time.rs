@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::row::{Row, Status};
 use crate::measure::effort::Effort;
+use crate::shown::shown;
 
 /// What a check may take, in multiples of what it takes usually.
 const PATIENCE: f64 = 10.0;
@@ -65,11 +66,11 @@ impl Timing {
     pub fn row(&self) -> Option<Row> {
         let (took, limit) = (self.judged_s(), self.limit_s);
         let failure = format!("took {took:.1} s, limit {limit:.0} s; --time-factor multiplies the limits");
-        (took > limit).then(|| self.failing(failure))
+        (took > limit).then(|| self.failing(&failure))
     }
 
     /// The failing row of a check that gave no measurement, for the reason `failure`.
-    pub fn failing(&self, failure: String) -> Row {
+    pub fn failing(&self, failure: &str) -> Row {
         let (took, limit) = (self.judged_s(), self.limit_s);
         let claim = "A check ends, and in less than ten times its usual time.";
         Row {
@@ -78,7 +79,7 @@ impl Timing {
             limit: Some(limit),
             reserve: Some(limit / took).filter(|reserve| reserve.is_finite()),
             cases: 1,
-            failure: Some(failure),
+            failure: Some(shown(failure)),
             ..Row::of_the_suite(&self.check, claim, "time", Status::Fail)
         }
     }

@@ -28,6 +28,7 @@ use crate::measure::survey::{Survey, random_launches};
 use crate::measure::tables::fig4;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
+use crate::shown::shown;
 
 /// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
 /// behind some of its rows, each null if no check needed it.
@@ -160,6 +161,10 @@ impl Context {
 fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     let mut names = BTreeSet::new();
     for entry in registry {
+        let schemes = entry.schemes().iter().map(|scheme| scheme.name());
+        for name in std::iter::once(entry.name()).chain(schemes) {
+            ensure!(shown(name) == name, "'{}' is no name: it has characters that nobody sees", shown(name));
+        }
         ensure!(names.insert(entry.name()), "the registry has two solvers called '{}'", entry.name());
         ensure!(entry.name() != YARDSTICK, "'{YARDSTICK}' is what charts call the library's quaternion");
     }

@@ -6,6 +6,7 @@ use dynamics::Toss;
 
 use super::case;
 use super::subject::Subject;
+use crate::shown::shown;
 
 /// What repeats the toss of a worst case.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,7 +75,7 @@ impl Commands {
     }
 
     fn with(&self, arguments: &str) -> String {
-        format!("{} {arguments}{}", self.program, self.options)
+        shown(&format!("{} {arguments}{}", self.program, self.options))
     }
 }
 

@@ -10,6 +10,7 @@ use toss::{Landing, Outcome, SolveError};
 use super::reference::Reference;
 use super::subject::Subject;
 use super::{case, drift};
+use crate::shown::shown;
 
 /// How good an answer is, from the best to the worst.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -87,6 +88,9 @@ pub struct Run {
     /// Whether it returned that error because it solves coins alone.
     #[serde(skip)]
     pub is_for_coins: bool,
+    /// Whether it returned that error because the toss turns too far for any answer to mean something.
+    #[serde(skip)]
+    pub is_too_far: bool,
     /// Error of cos θ at landing.
     pub err_cos_tilt: Option<f64>,
     /// Angle to the exact attitude at landing (rad).
@@ -118,8 +122,18 @@ impl Run {
             Ok(landing) => failed.answered(&landing, toss, exact, Allowance::new(subject, toss, landing.error)),
             Err(error) => {
                 let is_for_coins = matches!(error, SolveError::NotSymmetric { .. });
-                Self { failure: Some(error.to_string()), is_for_coins, ..failed }
+                let is_too_far = matches!(error, SolveError::PhaseTooLarge { .. });
+                Self { failure: Some(shown(&error.to_string())), is_for_coins, is_too_far, ..failed }
             }
+        }
+    }
+
+    /// Whether the toss was answered as it should be: right, or by an error that says why it can't be answered.
+    pub(crate) fn passes(&self) -> bool {
+        match self.answer {
+            Answer::Right => true,
+            Answer::TypedError => self.is_for_coins || self.is_too_far,
+            Answer::Unclaimed | Answer::SilentlyWrong => false,
         }
     }
 

@@ -10,6 +10,7 @@ use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
+use crate::shown::shown;
 
 /// Name of the suite of what became worse.
 const WORSE: &str = "worse than the baseline";
@@ -32,7 +33,9 @@ pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
         suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, &report.rows)));
         junit.add_test_suite(suite);
     }
-    Ok(junit.to_string()?)
+    // XML has no place for some characters, however they are written. The rows of a suite have none of them.
+    let seen = |line: &str| line.split('\n').map(shown).collect::<Vec<_>>().join("\n");
+    Ok(seen(&junit.to_string()?))
 }
 
 fn test_case(row: &Row) -> TestCase {

@@ -174,7 +174,7 @@ impl Report {
     }
 
     /// Limits for the rows that pass without one, as the text of a `limits.toml`: twice what was measured, rounded up to
-    /// one digit. `None` if every row that passes has a limit.
+    /// two digits. `None` if every row that passes has a limit.
     pub fn proposed_limits(&self) -> Option<String> {
         limits::proposed(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
     }

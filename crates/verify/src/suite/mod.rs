@@ -24,7 +24,7 @@ use toss::Registry;
 
 use crate::Row;
 use crate::files;
-use crate::judge::baseline::{self, Baseline};
+use crate::judge::baseline::{self, Baseline, ERROR_RATIO};
 use crate::judge::limits::Limits;
 use crate::judge::time::Timing;
 use crate::judge::{Judge, LeftOut, record, require_distinct, unused_limits};
@@ -33,6 +33,7 @@ use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::replay::Commands;
 use crate::render::report::{Compared, Report, Verdict};
+use crate::shown::shown;
 use crate::watch::{self, End};
 
 pub(crate) use selection::named as check_named;
@@ -51,6 +52,7 @@ pub struct Suite {
     commands: Commands,
     of_the_library: bool,
     time_factor: f64,
+    error_ratio: f64,
 }
 
 /// What a run tells while it goes on.
@@ -77,6 +79,7 @@ impl Suite {
             commands: Commands::of_this_program(),
             of_the_library: false,
             time_factor: 1.0,
+            error_ratio: ERROR_RATIO,
         }
     }
 
@@ -131,6 +134,14 @@ impl Suite {
         Self { time_factor: factor, ..self }
     }
 
+    /// The same suite, in which an error is worse than the baseline above `ratio` times the accepted one, instead of 1.25:
+    /// for machines that share a baseline although their sine and cosine round differently. Where it is not finite and at
+    /// least 1, [`run`](Self::run) says so.
+    #[must_use]
+    pub fn worse_above(self, ratio: f64) -> Self {
+        Self { error_ratio: ratio, ..self }
+    }
+
     /// The solvers.
     pub fn registry(&self) -> &Registry {
         &self.registry
@@ -167,7 +178,10 @@ impl Suite {
             "time_factor = {}: must be finite and above 0",
             self.time_factor
         );
-        let limits = self.all_limits()?;
+        let ratio = self.error_ratio;
+        ensure!(ratio.is_finite() && ratio >= 1.0, "worse_above = {ratio}: must be finite and at least 1");
+        let (limits, path) = (self.all_limits()?, self.baseline_path());
+        let baseline = Baseline::read(&path)?.map(|baseline| baseline.worse_above(ratio));
         let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
         let (checks, mut left_out) = self.checks()?;
         let (mut rows, timings) = self.measure(&checks, &context, &limits, show)?;
@@ -187,10 +201,9 @@ impl Suite {
         rows.extend(unused);
         ensure!(!rows.is_empty(), "no check measured anything");
         require_distinct(&rows)?;
-        let path = self.baseline_path();
-        let (baseline, found) = (Baseline::read(&path)?, Baseline::of(&rows, context.sweep.found()));
+        let found = Baseline::of(&rows, context.sweep.found());
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
-        let compared = Compared { file: path.display().to_string(), found: baseline.is_some(), written: false };
+        let compared = Compared { file: shown(&path.display().to_string()), found: baseline.is_some(), written: false };
         Ok(Report::new(context, rows, timings, compared, moves, left_out))
     }
 
@@ -224,7 +237,7 @@ impl Suite {
         ensure!(self.only.is_none(), "a run of one check is not accepted into the baseline");
         ensure!(report.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
         let path = self.baseline_path();
-        let accepted = Baseline::read(&path)?.unwrap_or_default();
+        let accepted = Baseline::read(&path)?.unwrap_or_default().worse_above(self.error_ratio);
         files::write(&path, &accepted.ratcheted(&report.found()).csv()?)?;
         report.baseline.written = true;
         if let Some(sweep) = report.context.sweep.found().filter(|_| self.effort == Effort::Standard) {

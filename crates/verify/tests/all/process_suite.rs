@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::programs::{answering, example, has_python};
+use crate::programs::{answering, example, has};
 
 /// What `verify run` with a program prints and its exit code.
 fn verified(arguments: &[&str]) -> (String, Option<i32>) {
@@ -44,7 +44,7 @@ fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
 
 #[test]
 fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_own_error_or_by_a_claim() {
-    if !has_python() {
+    if !has("python3") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -58,7 +58,7 @@ fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_own_error_o
 
 #[test]
 fn a_failure_at_one_tolerance_is_repeated_at_that_tolerance() {
-    if !has_python() {
+    if !has("python3") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -82,4 +82,80 @@ fn a_failure_at_one_tolerance_is_repeated_at_that_tolerance() {
     assert!(code == Some(0) && text.contains("right"), "at the usual tolerance: {code:?}, {text}");
     let (text, code) = verify(&["--replay", input, "--row", "random-cos-tilt / command/own", "--command", &command]);
     assert!(code == Some(4) && text.contains("leave it out"), "{code:?}, {text}");
+}
+
+/// Every character that is no letter to a reader: controls, ends of lines, turned directions, and what XML has no place for.
+fn hostile() -> String {
+    let controls = (1..=0x9f_u8).filter(|code| *code != b'\n' && !(0x20..0x7f).contains(code)).map(char::from);
+    let others = "\u{fffe}\u{ffff}\u{1fffe}\u{2028}\u{2029}\u{202e}\u{2066}\u{200f}\u{feff}";
+    let text = "]]> <b>&amp; \"'` | ** % ::error::fake \u{1b}]0;title\u{7}\u{1b}[31mred\u{1b}[2J";
+    format!("begin {}\0{others}{text} end", controls.collect::<String>())
+}
+
+#[test]
+fn what_a_program_says_is_one_line_without_controls_in_every_format() {
+    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let (words, summary) = (folder.path().join("words"), folder.path().join("summary"));
+    std::fs::write(&words, hostile() + "\n").unwrap();
+    let command = answering(&format!("printf %s, $id,failed; cat '{}'", words.display()));
+    let command = format!("{command} # \u{1b}[31m\nerror: fake");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(["--quick", "--only", "reference-cos-tilt", "--format", "github", "--command", &command, "--out"])
+        .arg(out.path().join("o\u{1b}[31m\nut"))
+        .env("GITHUB_STEP_SUMMARY", &summary)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let mut texts = vec![
+        ("stdout".to_owned(), String::from_utf8(output.stdout).unwrap()),
+        ("stderr".to_owned(), String::from_utf8(output.stderr).unwrap()),
+        ("summary".to_owned(), std::fs::read_to_string(&summary).unwrap()),
+    ];
+    let written = std::fs::read_dir(out.path().join("o\u{1b}[31m\nut")).unwrap().flatten();
+    texts.extend(
+        written.map(|file| {
+            (file.file_name().to_string_lossy().into_owned(), std::fs::read_to_string(file.path()).unwrap())
+        }),
+    );
+    assert!(texts.len() > 8, "{texts:?}");
+    for (name, text) in &texts {
+        let unseen = text.chars().find(|character| {
+            let is_unseen = character.is_control()
+                || "\u{fffe}\u{ffff}\u{1fffe}\u{2028}\u{2029}\u{202e}\u{2066}\u{200f}\u{feff}".contains(*character);
+            is_unseen && *character != '\n'
+        });
+        assert_eq!(unseen, None, "{name}");
+        assert!(!text.lines().any(|line| line.trim_start().starts_with("error: fake")), "{name}: {text}");
+        assert!(!text.lines().any(|line| line.trim_start().starts_with("::error::fake")), "{name}: {text}");
+        let says = ["stdout", "summary", "summary.md", "report.html", "report.json", "junit.xml"].contains(&&**name);
+        assert!(!says || text.contains("u{1b}[2J end") || text.contains("u{1b}\\[2J end"), "{name}: {text}");
+    }
+    let junit = out.path().join("o\u{1b}[31m\nut/junit.xml");
+    if has("python3") {
+        let parse = "import sys, xml.dom.minidom; xml.dom.minidom.parse(open(sys.argv[1], 'rb'))";
+        let parsed = std::process::Command::new("python3").args(["-c", parse]).arg(junit).output().unwrap();
+        assert!(parsed.status.success(), "{}", String::from_utf8_lossy(&parsed.stderr));
+    }
+}
+
+#[test]
+fn the_command_of_a_failing_row_ends_with_the_code_of_the_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let turns = answering("echo $id,$x,$w,$y,$z,error=1e-9");
+    let declines = answering("echo $id,failed,it\\'s too far");
+    let two_lines = format!("cd /\n{declines}");
+    for command in [&*turns, &declines, &two_lines, "exit 3"] {
+        for check in ["reference-cos-tilt", "random-cos-tilt", "adversarial-refusals"] {
+            let (text, code) = verify(&["--quick", "--only", check, "--command", command]);
+            // Wrong answers are no refusals.
+            if code == Some(0) && command == turns {
+                continue;
+            }
+            assert_eq!(code, Some(1), "{command}: {text}");
+            let again = text.lines().find_map(|line| line.trim().strip_prefix("repeat with: ")).expect(&text);
+            let output =
+                crate::pages::run(&format!("{again} --out out"), crate::pages::verify_program(), folder.path());
+            assert_eq!(output.status.code(), Some(1), "{again}: {output:?}");
+        }
+    }
 }

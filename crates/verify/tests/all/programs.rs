@@ -18,11 +18,11 @@ pub(crate) fn example(folder: &Path) -> String {
     format!("python3 '{}'", file.display())
 }
 
-/// Whether there is Python to run it; says so if not.
-pub(crate) fn has_python() -> bool {
-    let found = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
+/// Whether there is this program; says so if not.
+pub(crate) fn has(program: &str) -> bool {
+    let found = Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
     if !found {
-        eprintln!("skipped: there is no python3");
+        eprintln!("skipped: there is no {program}");
     }
     found
 }

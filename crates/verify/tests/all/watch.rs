@@ -54,7 +54,7 @@ fn a_check_that_never_ends_ends_the_run_with_a_row_that_says_so() {
         assert_eq!(ended.len(), 2, "{}", check.id);
         let (_, timing, End::Failed(why)) = &ended[1] else { panic!("{ended:?}") };
         assert!(why.starts_with("did not end within") && why.ends_with("the 2 checks after it were not run"), "{why}");
-        assert!(!timing.failing(why.clone()).status.passes());
+        assert!(!timing.failing(why).status.passes());
         assert!(started.elapsed() < Duration::from_secs(60), "{:?}", started.elapsed());
     }
 }

@@ -28,6 +28,7 @@ pub use yardstick::YARDSTICK;
 /// One subject at one setting on one problem. Errors are the largest over the problem's launches, counts and times
 /// their sums.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Sample {
     /// The problem's name.
     pub problem: String,
@@ -142,6 +143,20 @@ impl Sample {
     /// The name of the subject: `solver` or `solver/scheme`.
     pub fn subject(&self) -> String {
         self.scheme.as_ref().map_or_else(|| self.solver.clone(), |scheme| format!("{}/{scheme}", self.solver))
+    }
+
+    /// The first number that is negative and cannot be, with its field.
+    pub(crate) fn first_negative(&self) -> Option<(&'static str, f64)> {
+        let numbers = [
+            ("tol", self.tol),
+            ("step", self.step),
+            ("err_cos_theta", self.err_cos_theta),
+            ("err_attitude_rad", self.err_attitude_rad),
+            ("err_invariants", self.err_invariants),
+            ("err_by_allowance", self.err_by_allowance),
+            ("ref_err_bound", Some(self.ref_err_bound)),
+        ];
+        numbers.into_iter().find_map(|(field, value)| Some((field, value.filter(|value| *value < 0.0)?)))
     }
 }
 
