@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use clap::{Args, ValueEnum};
-use dynamics::Toss;
+use dynamics::{Flight, Toss};
 use indicatif::{ProgressBar, ProgressStyle};
-use toss::{Formulation, StepControl};
+use toss::{Formulation, StepControl, Stepping};
 
 use super::program::Foreign;
 use crate::measure::atlas;
@@ -16,7 +16,7 @@ use crate::measure::case;
 use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::render::report::{PROPOSAL, Report, Verdict};
-use crate::render::{github, junit, text, words};
+use crate::render::{diagnosis, github, junit, text, words};
 use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
@@ -209,8 +209,15 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, Reference::of(toss)?);
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
-    let passes = !by_default.into_iter().any(|(_, run)| run.answer == Answer::SilentlyWrong);
+    // A solver may refuse what is too long or no coin; a program that gives no answer to what it was asked for fails.
+    let is_asked = is_foreign && Flight::new(toss).is_ok();
+    let is_silent = |run: &Run| is_asked && run.failure.is_some() && !run.is_for_coins;
+    let fails = |run: &Run| run.answer == Answer::SilentlyWrong || is_silent(run);
+    let passes = !by_default.into_iter().any(|(_, run)| fails(run));
     let mut table = text::runs(&runs, Conditioning::new(toss)?);
+    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
+        table += &diagnosis::example(&asked.example());
+    }
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
         let mut last = None;
         for found in check.again(&context, toss, &|_| true)? {
@@ -220,6 +227,14 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
         }
     }
     Ok((passes, table))
+}
+
+/// The tolerance of a program that is replayed.
+fn tolerance(control: Option<StepControl>) -> f64 {
+    match control {
+        Some(StepControl::Tolerance(tolerance)) => tolerance,
+        _ => Stepping::DEFAULT_TOLERANCE,
+    }
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.

@@ -2,6 +2,7 @@
 //! or judged here.
 
 pub mod charts;
+pub(crate) mod diagnosis;
 mod folder;
 pub(crate) mod github;
 pub(crate) mod html;
