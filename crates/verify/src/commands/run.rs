@@ -16,7 +16,7 @@ use crate::measure::case;
 use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::render::report::{PROPOSAL, Report, Verdict};
-use crate::render::{diagnosis, github, junit, text, words};
+use crate::render::{diagnosis, github, junit, standing, text, words};
 use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
@@ -172,8 +172,8 @@ impl RunArgs {
         let compared = report.baseline.words(&report.moves);
         let (table, verdict) = (text::report(report, self.verbose), text::passing(&report.rows));
         let left_out = words::left_out(&report.left_out);
-        let written = written(report, out);
-        format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
+        let (standing, written) = (standing::sentences(report), written(report, out));
+        format!("{table}{moved}{verdict}{left_out}{standing}{compared}\n{written}")
     }
 }
 

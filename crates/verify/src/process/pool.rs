@@ -10,6 +10,7 @@ use super::Limits;
 use super::child::{Answered, Fault, Process, STARTS};
 use super::protocol::{Reply, numbered};
 use crate::clock;
+use crate::measure::diagnosis::GIVEN_UP;
 
 /// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
 const LOSSES: u32 = 6;
@@ -166,6 +167,6 @@ impl State {
 
     fn give_up(&mut self, why: &str) {
         self.idle.clear();
-        self.given_up.get_or_insert_with(|| format!("is no longer asked: it {why}"));
+        self.given_up.get_or_insert_with(|| format!("{GIVEN_UP}{why}"));
     }
 }

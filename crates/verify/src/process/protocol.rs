@@ -179,7 +179,9 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
             Some(("rate", text)) => landing.rate = Some(rate_in(text)?),
             Some(("bodies", "yes")) => landing.takes_bodies = true,
             _ => {
-                return Err(format!("'{field}' where error=NUMBER, calls=NUMBER, rate=X;Y;Z or bodies=yes is expected"));
+                return Err(format!(
+                    "'{field}' where error=NUMBER, calls=NUMBER, rate=X;Y;Z or bodies=yes is expected"
+                ));
             }
         }
     }

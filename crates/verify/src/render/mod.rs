@@ -10,6 +10,7 @@ pub(crate) mod junit;
 pub(crate) mod metrics;
 pub(crate) mod pattern;
 pub mod report;
+pub(crate) mod standing;
 pub(crate) mod text;
 pub(crate) mod words;
 

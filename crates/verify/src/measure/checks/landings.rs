@@ -61,7 +61,7 @@ pub(super) const CHECKS: &[Check] = &[
         "On coins of any two moments at any attitude Q or -Q, with rates of 1e-3 to 1e3 rad/s, times from 0 on and phases \
          of up to 3000 rad, the errors of cos θ and of the attitude are at most what the solver's estimate allows. \
          Measured: the largest error divided by that; it fails above the limit, or at 1 without one. A solver may return \
-         an error for a phase above 1000 rad. Where it states no estimate, it decides nothing and is not judged.",
+         an error for a phase above 1000 rad.",
     ),
     Check::of_solvers("vertical-frame-to-first-return", Own(first_return)).up_to(ATTITUDE, "rad").claims(
         "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return there, \
@@ -308,7 +308,10 @@ fn any_launch(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             if landing.is_err() && any_launch::may_be_declined(toss) {
                 return None;
             }
-            Some(landing.map(|landing| (part_of_estimate(&exact, &landing).unwrap_or(0.0), Some(1.0))))
+            Some(landing.map(|landing| match part_of_estimate(&exact, &landing) {
+                Some(part) => (part, Some(1.0)),
+                None => (0.0, None),
+            }))
         };
         let found: Vec<_> = flights.par_iter().map(trial).collect();
         let tried = flights.iter().zip(found).filter_map(|((toss, by), found)| Some(Trial::by(by, toss, found?)));

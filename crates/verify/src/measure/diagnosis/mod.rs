@@ -36,6 +36,9 @@ const ROUGH: [f64; 2] = [1e-2, 1e7];
 /// The least and the largest norm of a quaternion that is taken for one of norm 1.
 const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
+/// What stands before the reason why a program was given up.
+pub(crate) const GIVEN_UP: &str = "is no longer asked: it ";
+
 /// A launch that a solver was asked for, with its answer.
 #[derive(Debug)]
 pub struct Asked {
@@ -142,7 +145,7 @@ impl Asked {
         let why = self.answer.as_ref().err().cloned().unwrap_or_default();
         Example {
             question: self.question.clone(),
-            answer: self.line.clone().unwrap_or_else(|| format!("none: it {why}")),
+            answer: self.line.clone().unwrap_or_else(|| format!("none: {why}")),
             expected: format!("{w:?},{x:?},{y:?},{z:?} (or its negative), cos θ = {cos_tilt:?}"),
         }
     }
@@ -174,11 +177,12 @@ pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
     let smallest = wrong.iter().min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?;
     let silent: Vec<&Asked> = wrong.iter().copied().filter(|one| one.answer.is_err()).collect();
     let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
-    let unanswered = || (silent.len() * 2 > asked.len()).then(|| (no_answer(&silent, asked.len()), true));
+    let unanswered = |is_it: bool| is_it.then(|| (no_answer(&silent, asked.len()), true));
     // A few wrong answers are rather those of some launches than of a rough solver.
     let is_rare = wrong.len() * 10 < asked.len();
-    let cause = unanswered()
+    let cause = unanswered(silent.len() * 2 > asked.len())
         .or_else(|| if is_rare { split(&asked) } else { None })
+        .or_else(|| unanswered(silent.len() == wrong.len()))
         .or_else(|| rough(&answered, asked.len()))
         .or_else(|| mistake(&answered, asked.len()))
         .or_else(|| split(&asked));
@@ -209,13 +213,13 @@ type Cause = (String, bool);
 
 /// The most frequent reason why there is no answer.
 fn no_answer(silent: &[&Asked], all: usize) -> String {
-    let mut reasons: Vec<&str> =
-        silent.iter().filter_map(|one| one.answer.as_ref().err()).map(String::as_str).collect();
-    // A program that is given up says so of all launches that follow, after what it did first.
+    let reasons = silent.iter().filter_map(|one| one.answer.as_ref().err());
+    // A program that is given up says of all launches that follow what it did.
+    let mut reasons: Vec<&str> = reasons.map(|why| why.strip_prefix(GIVEN_UP).unwrap_or(why)).collect();
     reasons.sort_unstable();
-    let longest = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
-    let reason = longest.and_then(|same| same.first()).copied().unwrap_or_default();
-    format!("no answer to {} of {all} launches: it {reason}", silent.len())
+    let most = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
+    let reason = most.and_then(|same| same.first()).copied().unwrap_or_default();
+    format!("no answer to {} of {all} launches: {reason}", silent.len())
 }
 
 /// A known mistake that explains nearly all answers, the wrong and the right ones.
