@@ -66,10 +66,11 @@ fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
     };
     // A power of two keeps every digit of the ratio.
     let i1 = 2f64.powi(rng.random_range(-20..10));
-    let rate = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0)) * decades(rng, -2.9, 2.9);
+    let direction = Vector3::<f64>::from_fn(|_, _| rng.random_range(-1.0..1.0));
+    let rate = direction / direction.amax() * decades(rng, -2.9, 2.9);
     let turn_rate = Vector3::new(rate.x, rate.y, k * rate.z).norm().max(((k - 1.0) * rate.z).abs());
-    let phase = match index % 40 {
-        0 => 0.0,
+    let phase = match index % 80 {
+        0 | 40 => 0.0,
         1 => decades(rng, 3.1, 3.4),
         _ => decades(rng, -2.0, 2.5),
     };

@@ -30,8 +30,8 @@ const TRIED: usize = 24;
 /// An angle (rad) by which answers may differ from what a hypothesis says, beside ten times what is allowed.
 const NEAR: f64 = 1e-6;
 
-/// A solver is right but for its accuracy if all its errors are below this (rad), and below so many times the allowed one.
-const ROUGH: [f64; 2] = [1e-2, 1e7];
+/// A solver is right but for its accuracy if all its errors are below this (rad).
+const ROUGH: f64 = 1e-2;
 
 /// The least and the largest norm of a quaternion that is taken for one of norm 1.
 const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
@@ -248,7 +248,7 @@ fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
     let errors: Vec<[f64; 2]> = answered.iter().map(|one| one.errors()).collect::<Option<_>>()?;
     let most = |at: usize| errors.iter().map(|of| of[at]).fold(0.0, f64::max);
     let (times, largest) = (most(0), most(1));
-    let is_rough = largest <= ROUGH[0] && times <= ROUGH[1] && times > 1.0;
+    let is_rough = largest <= ROUGH && times > 1.0;
     let number = answered.len();
     is_rough.then(|| {
         (format!("right if {times:.1e} times the error is allowed, as of a tolerance looser than asked: {number} of {all}"), true)
@@ -261,7 +261,10 @@ struct Feature(&'static str, fn(&Toss, &Numbers) -> f64);
 const FEATURES: [Feature; 14] = [
     Feature("k = i3/i1", |_, of| of.k),
     Feature("the phase (rad)", |toss, _| Phases::new(toss).map_or(f64::INFINITY, |phases| phases.largest)),
-    Feature("the tilt at launch (rad)", |toss, _| toss.launch.attitude().cos_tilt().clamp(-1.0, 1.0).acos()),
+    Feature("the tilt at launch (rad)", |_, of| {
+        let [w, x, y, z] = of.attitude;
+        2.0 * x.hypot(y).atan2(w.hypot(z))
+    }),
     Feature("the time", |_, of| of.time),
     Feature("the largest component of the rate", |_, of| nalgebra::Vector3::from(of.rate).amax()),
     Feature("i1", |_, of| of.i1),
@@ -275,8 +278,8 @@ const FEATURES: [Feature; 14] = [
     Feature("rate_z", |_, of| of.rate[2]),
 ];
 
-/// The fewest answers on either side of a bound, and the part of the wrong ones on that which it rules out.
-const SIDES: [usize; 2] = [20, 5];
+/// The fewest right answers on the one side of a bound, more than there are without a time of flight, the fewest on the other, and the part of the wrong ones on that which it rules out.
+const SIDES: [usize; 2] = [50, 5];
 const RULED_OUT: f64 = 0.75;
 
 /// A bound of one number of the question on whose one side all answers are right, and on the other nearly all are wrong.
@@ -292,14 +295,22 @@ fn split(asked: &[Asked]) -> Option<Cause> {
             let (inside, outside) = (below, sorted.len() - below);
             let right = sorted[below..].iter().filter(|(_, right)| *right).count();
             let ruled_out = 1.0 - right as f64 / outside as f64;
-            if inside < SIDES[0] || outside < SIDES[1] || ruled_out < RULED_OUT {
+            // Where only a part of the right answers is on the one side, the bound is no cause.
+            if inside < SIDES[0].max(4 * right) || outside < SIDES[1] || ruled_out < RULED_OUT {
                 continue;
             }
-            let bound = roundest(sorted[below - 1].0, first) * sign;
-            let relation = if sign > 0.0 { "<" } else { ">" };
+            let last = sorted[below - 1].0;
+            let bound = roundest(last, first);
+            let relation = match (sign > 0.0, bound == last) {
+                _ if sorted[0].0 == last => "=",
+                (true, true) => "≤",
+                (true, false) => "<",
+                (false, true) => "≥",
+                (false, false) => ">",
+            };
             let words = format!(
                 "right only where {name} {relation} {}: {inside} of {inside}, elsewhere {right} of {outside}",
-                short(bound)
+                short(sign * bound)
             );
             if best.as_ref().is_none_or(|(known, _)| ruled_out > *known) {
                 best = Some((ruled_out, words));
@@ -309,9 +320,9 @@ fn split(asked: &[Asked]) -> Option<Cause> {
     best.map(|(_, words)| (words, false))
 }
 
-/// The number above `low` and up to `high` with the fewest digits.
+/// The number from `low` to `high` with the fewest digits.
 fn roundest(low: f64, high: f64) -> f64 {
-    let between = |value: &f64| low < *value && *value <= high;
+    let between = |value: &f64| (low..=high).contains(value);
     let rounded =
         |digits: usize| [low, high].into_iter().filter_map(move |value| format!("{value:.digits$e}").parse().ok());
     std::iter::once(0.0).chain((0..17).flat_map(rounded)).find(between).unwrap_or(high)

@@ -133,12 +133,12 @@ fn each_mistake_is_found_and_named() {
             let wrong = Row { rate: row.rate * 1.5, ..*row };
             components(right(if row.i3 < row.i1 { row } else { &wrong }))
         }),
-        ("right only where the tilt at launch (rad) < ", |row| {
+        ("right only where the tilt at launch (rad) = 0: ", |row| {
             let is_level = row.launched.i.hypot(row.launched.j) < 1e-9;
             components(if is_level { right(row) } else { right(row) * turn(Vector3::new(1.0, 0.3, 0.0)) })
         }),
-        ("right only where the phase (rad) < ", |row| {
-            let off = if momentum(row).norm() > 20.0 { 0.1 } else { 0.0 };
+        ("right only where the phase (rad) < 20: ", |row| {
+            let off = if momentum(row).norm().max(spin(row).norm()) > 20.0 { 0.1 } else { 0.0 };
             components(right(row) * turn(Vector3::new(off, 0.0, 0.0)))
         }),
     ];
@@ -155,7 +155,7 @@ fn a_rare_mistake_is_told_by_the_launches_without_it() {
     let mistakes: [Mistake; 3] = [
         ("right only where k = i3/i1 > 0", |row| row.i3 == 0.0),
         ("right only where the phase (rad) < 1000", |row| momentum(row).norm().max(spin(row).norm()) > 1e3),
-        ("right only where w > ", |row| row.launched.w < 0.0),
+        ("right only where w ≥ 0: ", |row| row.launched.w < 0.0),
     ];
     for (cause, is_wrong) in mistakes {
         let off = |row: &Row| if is_wrong(row) { Vector3::new(0.1, 0.2, 0.3) } else { Vector3::zeros() };
@@ -195,7 +195,9 @@ fn a_solver_without_answers_is_told_why() {
 
 #[test]
 fn a_bound_is_the_roundest_number_between() {
-    for (low, high, expected) in [(0.97, 1.03, 1.0), (-0.2, 0.3, 0.0), (812.0, 1301.0, 1e3), (0.123, 0.124, 0.124)] {
+    for (low, high, expected) in
+        [(0.97, 1.03, 1.0), (-0.2, 0.3, 0.0), (812.0, 1301.0, 1e3), (0.1234, 0.1249, 0.1234), (2.0, 2.2, 2.0)]
+    {
         assert_eq!(roundest(low, high), expected);
     }
 }
