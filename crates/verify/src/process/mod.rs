@@ -218,7 +218,10 @@ impl Running {
             toss: *toss,
             question: format!("{HEADER}\n{}", exchange.question),
             line: exchange.line,
-            answer: exchange.reply.map(|landed| question.in_body(landed.quaternion)),
+            answer: exchange.reply.and_then(|landed| match landed.quaternion {
+                finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
+                _ => Err("answered a quaternion that is not finite".to_owned()),
+            }),
             allowed,
             exact: Reference::of(toss).ok()?,
         })

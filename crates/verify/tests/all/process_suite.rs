@@ -2,6 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use toss::{Scheme, SolverEntry};
+use verify::process::Program;
+use verify::{CHECKS, Context, Effort};
+
 use crate::programs::{answering, example, has_python};
 
 /// What `verify run` with a program prints and its exit code.
@@ -62,6 +66,24 @@ fn the_first_lines_name_the_likeliest_cause() {
                  2,1.0,0.5,1.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,1e-10,1.0\n  \
                  answer:   2,1.0,0.0,0.0,0.0\n  expected: 0.877582561890372";
     assert!(code == Some(1) && text.contains(shown) && text.contains("cos θ = 0.5403023058681398"), "{code:?}, {text}");
+}
+
+/// What the tolerance permits is no claim, so that a right program or stepper may be far more accurate.
+#[test]
+fn a_solver_that_states_no_error_claims_none() {
+    let check = CHECKS.iter().find(|check| check.id == "claims-measured").expect("a check");
+    let claims = |entry: SolverEntry| {
+        let context = Context::new(&[entry], Effort::Quick).expect("a context");
+        check.measure(&context).expect("rows").len()
+    };
+    let program = |body: &str| Program::new(answering(body));
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").entry("program")), 0);
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z,error=1e-3").entry("program")), 1);
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").with_claim(1e-3).expect("a claim").entry("program")), 1);
+    let stepper = SolverEntry::from_stepper("stepper", "", &[Scheme::DOP853], |system, _| {
+        Ok((system.start(), system.work(1, 0)))
+    });
+    assert_eq!(claims(stepper), 0);
 }
 
 #[test]

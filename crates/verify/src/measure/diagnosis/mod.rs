@@ -172,7 +172,8 @@ pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> any
 
 /// The likeliest cause of the wrong answers of `subject`; `None` if all are right.
 pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
-    asked.retain(|one| one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
+    let is_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
+    asked.retain(|one| is_silent || one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
     let (right, wrong): (Vec<&Asked>, Vec<&Asked>) = asked.iter().partition(|one| one.is_right());
     let smallest = wrong.iter().min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?;
     let silent: Vec<&Asked> = wrong.iter().copied().filter(|one| one.answer.is_err()).collect();
@@ -190,7 +191,7 @@ pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
         let (wrong, all) = (wrong.len(), asked.len());
         (
             format!(
-                "wrong in {wrong} of {all} launches, for a reason that none of {} guesses explains",
+                "wrong in {wrong} of {all} launches, for a reason that none of the {} known mistakes explains",
                 HYPOTHESES.len()
             ),
             false,

@@ -166,7 +166,7 @@ fn a_rare_mistake_is_told_by_the_launches_without_it() {
     let is_wrong = |row: &Row| row.rate.x > 0.0 && row.launched.i > 0.1;
     let off = |row: &Row| if is_wrong(row) { Vector3::new(0.1, 0.2, 0.3) } else { Vector3::zeros() };
     let found = told(|row| components(right(row) * turn(off(row)))).unwrap();
-    assert!(found.cause.contains("for a reason that none of"), "{found:#?}");
+    assert!(found.cause.contains("for a reason that none of the"), "{found:#?}");
     assert!(found.example.question.starts_with("moments=1.0,0.5 rate=1.0,0.0,0.0 "), "{found:#?}");
     assert!(found.example.expected.contains("cos θ = "), "{found:#?}");
 }
