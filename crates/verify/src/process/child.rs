@@ -138,14 +138,15 @@ impl Process {
 
     /// What it did in the time `limit`, in which it did not answer.
     fn late(&self, limit: Duration, limits: &Limits) -> String {
-        let (number, seconds) = (self.asked, limit.as_secs_f64());
+        let (number, seconds) = (self.asked, (limit.as_secs_f64() * 1e3).round() / 1e3);
         if waits_for_input(&family(self.child.id())) {
             return format!(
                 "read question {number}, wrote no answer within {seconds} s and waits for more input: it has to answer \
                  each line before it reads the next one, and to write out each answer, without buffering"
             );
         }
-        if number == 1 {
+        // One that replaces another is known to start in less.
+        if number == 1 && limit == STARTS * limits.answer {
             let answer = limits.answer.as_secs_f64();
             return format!(
                 "gave no first answer within {seconds} s of its start (--answer-seconds {answer} times {STARTS}): if it \

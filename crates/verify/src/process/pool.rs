@@ -71,7 +71,7 @@ impl Pool {
         let exchange = match self.once(question) {
             Ok(exchange) => exchange,
             Err((late, has_answered)) if !has_answered => late,
-            Err(_) => self.once(question).unwrap_or_else(|(late, _)| late),
+            Err((late, _)) => self.once(question).unwrap_or(late),
         };
         let mut state = self.state();
         state.tally.questions += 1;

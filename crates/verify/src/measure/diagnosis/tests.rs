@@ -47,7 +47,12 @@ fn integrated(row: &Row, product: fn(Q, Q) -> Q, euler: f64) -> Q {
         let torque = Vector3::new((1.0 - k) * rate.y * rate.z, (k - 1.0) * rate.x * rate.z, 0.0);
         (product(q, Q::from_imag(rate)) * 0.5, torque * euler)
     };
-    let steps = (100.0 * row.rate.norm() * row.time).ceil().clamp(1.0, 3e5);
+    let angle = row.rate.norm() * row.time;
+    if angle > 1e3 {
+        // It declines.
+        return Q::from_real(f64::NAN);
+    }
+    let steps = (25.0 * angle).ceil().max(1.0);
     let h = row.time / steps;
     let mut y = (row.launched, row.rate);
     let along = |y: (Q, Vector3<f64>), by: (Q, Vector3<f64>), h: f64| (y.0 + by.0 * h, y.1 + by.1 * h);
@@ -79,7 +84,7 @@ fn told(answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosis> {
             toss: *toss,
             question: case::text(toss),
             line: None,
-            answer: Ok(answer(&row)),
+            answer: Some(answer(&row)).filter(|answer| !answer[0].is_nan()).ok_or_else(|| "declined".to_owned()),
             allowed: Allowance::by_estimate(100.0 * row.tolerance * (1.0 + phase)),
             exact: Reference::of(toss).ok()?,
         })
@@ -145,7 +150,7 @@ fn each_mistake_is_found_and_named() {
     for (cause, answer) in mistakes {
         let found = told(answer).unwrap_or_else(|| panic!("{cause}: nothing is found"));
         assert!(found.cause.contains(cause), "{cause}: {found:#?}");
-        assert!(found.right < found.launches && found.launches == 1000, "{cause}: {found:?}");
+        assert!(found.right < found.launches && found.launches >= 950, "{cause}: {found:?}");
     }
 }
 
