@@ -43,6 +43,12 @@ pub(super) struct Exchange {
     pub(super) reply: Reply,
 }
 
+/// A question that took too long, and whether there was an answer to another one before.
+struct Late {
+    exchange: Box<Exchange>,
+    has_answered: bool,
+}
+
 #[derive(Debug, Default)]
 struct State {
     /// The processes that wait for a question.
@@ -70,8 +76,8 @@ impl Pool {
     pub(super) fn ask(&self, question: &str) -> Exchange {
         let exchange = match self.once(question) {
             Ok(exchange) => exchange,
-            Err((late, has_answered)) if !has_answered => late,
-            Err((late, _)) => self.once(question).unwrap_or(late),
+            Err(Late { exchange, has_answered: false }) => *exchange,
+            Err(late) => self.once(question).unwrap_or(*late.exchange),
         };
         let mut state = self.state();
         state.tally.questions += 1;
@@ -94,8 +100,8 @@ impl Pool {
         self.state().takes_bodies
     }
 
-    /// What one process answers; an error if it takes too long, with whether there was an answer before.
-    fn once(&self, question: &str) -> Result<Exchange, (Exchange, bool)> {
+    /// What one process answers; an error if it takes too long.
+    fn once(&self, question: &str) -> Result<Exchange, Late> {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
@@ -126,7 +132,7 @@ impl Pool {
             Err(Fault { words, line, is_late }) => {
                 let has_answered = state.answering > Duration::ZERO;
                 let exchange = Exchange { question, line, reply: Err(state.note(words, took, &self.limits)) };
-                if is_late { Err((exchange, has_answered)) } else { Ok(exchange) }
+                if is_late { Err(Late { exchange: Box::new(exchange), has_answered }) } else { Ok(exchange) }
             }
         }
     }

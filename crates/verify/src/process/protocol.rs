@@ -6,6 +6,7 @@
 
 use dynamics::body_rate::rate_by_momentum;
 use dynamics::{Body, Flight};
+use numerics::DoubleDouble;
 use numerics::scale::power_of_two_scale;
 use toss::{Attitude, State, Toss, Vector3};
 
@@ -143,7 +144,7 @@ fn moments_and_axes(body: &Body) -> ([f64; 3], Option<Attitude>) {
     if let Some(moments) = body.moments() {
         return (scaled(moments), None);
     }
-    let axes = body.rigid().principal().axes.map(|axis| Vector3::from(axis.map(|part| part.hi())));
+    let axes = body.rigid().principal().axes.map(|axis| Vector3::from(axis.map(DoubleDouble::hi)));
     let turn = nalgebra::Rotation3::from_matrix_unchecked(nalgebra::Matrix3::from_columns(&axes));
     let turn = nalgebra::UnitQuaternion::from_rotation_matrix(&turn);
     let turn = Attitude::from_components([turn.w, turn.i, turn.j, turn.k]).unwrap_or(Attitude::IDENTITY);

@@ -93,16 +93,16 @@ impl Reference {
     /// The toss of a coin in closed form.
     pub fn new(toss: &CoinToss) -> Self {
         let flight = time(toss.launch.time_of_flight());
-        Self::of_coin(inertia_ratio(&toss.coin), rates(&toss.launch), &flight, quaternion(&toss.launch.attitude()))
+        Self::of_coin(inertia_ratio(&toss.coin), rates(&toss.launch), &flight, &quaternion(&toss.launch.attitude()))
     }
 
     /// The same by plain numbers: the inertia ratio k, which may be that of no coin, ω (rad/s), the time (s) and the
     /// attitude at launch. This is what a solver lands that takes other numbers than it was given.
     pub(crate) fn of_numbers(k: f64, rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
-        Self::of_coin(big(k), rate.map(big), &big(time), normalised(attitude.map(big)))
+        Self::of_coin(big(k), rate.map(big), &big(time), &normalised(attitude.map(big)))
     }
 
-    fn of_coin(k: Big, [x, y, z]: [Big; 3], time: &Big, launch: [Big; 4]) -> Self {
+    fn of_coin(k: Big, [x, y, z]: [Big; 3], time: &Big, launch: &[Big; 4]) -> Self {
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
         let half_time = time / big(2.0);
@@ -118,7 +118,7 @@ impl Reference {
         let error = ERROR_OF_A_COIN * (1.0 + to_f64(&half_phase) + to_f64(&half_spin).abs());
         let spin = [cos_half, big(0.0), big(0.0), -sin_half];
         let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
-        Self { attitude: product(&product(&launch, &turn), &spin), rate, error }
+        Self { attitude: product(&product(launch, &turn), &spin), rate, error }
     }
 
     /// The toss of a coin, or of another body [for which it is solved](rigid), in closed form.
