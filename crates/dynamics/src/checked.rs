@@ -80,6 +80,10 @@ impl<S: Solver> Solver for Checked<S> {
         catch_unwind(AssertUnwindSafe(|| self.solver.stepping())).ok().flatten()
     }
 
+    fn estimates_its_error(&self) -> bool {
+        catch_unwind(AssertUnwindSafe(|| self.solver.estimates_its_error())).unwrap_or(true)
+    }
+
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         self.checked_landing(self.guarded(|solver| solver.land(toss))?)
     }

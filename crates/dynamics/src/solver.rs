@@ -121,6 +121,12 @@ pub trait Solver: Send + Sync {
         None
     }
 
+    /// Whether the errors of its landings are estimates of its own, so that it is a fault if they are far larger than its
+    /// errors. A solver whose author states nothing, and which is judged by what its tolerance permits, says no.
+    fn estimates_its_error(&self) -> bool {
+        true
+    }
+
     /// The state at landing, `toss.launch.flight_time()` seconds after launch, with the error estimate of its cos θ.
     ///
     /// # Errors
@@ -165,6 +171,10 @@ where
 
     fn stepping(&self) -> Option<Stepping> {
         (**self).stepping()
+    }
+
+    fn estimates_its_error(&self) -> bool {
+        (**self).estimates_its_error()
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {

@@ -17,7 +17,8 @@ impl SolverEntry {
     ///
     /// `step` is given the system and the scheme with its tolerance or step, in the
     /// [units of the system](FreeRotation::stepping). It returns the state at `system.duration()` and the work, which
-    /// [`FreeRotation::work`] makes. The error that the solver claims is that of [`Stepping::error_estimate`].
+    /// [`FreeRotation::work`] makes. The solver is judged by the error that its settings permit,
+    /// [`Stepping::error_estimate`], and may be far more accurate.
     pub fn from_stepper(
         name: impl Into<Cow<'static, str>>,
         summary: impl Into<Cow<'static, str>>,
@@ -50,6 +51,10 @@ where
 
     fn stepping(&self) -> Option<Stepping> {
         Some(self.stepping)
+    }
+
+    fn estimates_its_error(&self) -> bool {
+        false
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {

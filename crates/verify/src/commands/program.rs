@@ -3,13 +3,11 @@
 use std::path::Path;
 use std::time::Duration;
 
-use clap::Args;
-use toss::{InputError, Registry, SolverEntry};
-
 use crate::measure::replay::Commands;
-use crate::process::{Limits, Program};
+use crate::process::{Claim, Limits, Program};
 use crate::shown::{is_unseen, shown};
 use crate::suite::Suite;
+use clap::Args;
 
 /// The name of the program in rows.
 const NAME: &str = "command";
@@ -18,11 +16,15 @@ const NAME: &str = "command";
 #[derive(Debug, Args)]
 pub(super) struct Foreign {
     /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-solver.md
-    #[arg(long, value_name = "LINE")]
+    #[arg(long, value_name = "LINE", value_parser = command_line)]
     command: Option<String>,
-    /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
-    #[arg(long, value_name = "ERROR", requires = "command")]
-    claim: Option<f64>,
+    /// Judge the program by this error of cos θ, instead of by the tolerance: 1e-9 at any toss, or 1e-12/rad, which is
+    /// multiplied by 1 + φ for a phase φ
+    #[arg(long, value_name = "ERROR", requires = "command", value_parser = str::parse::<Claim>)]
+    claim: Option<Claim>,
+    /// Ask the program for bodies with three moments, too; it is asked without this option if it answers bodies=yes
+    #[arg(long, requires = "command")]
+    bodies: bool,
     /// End the program if it takes longer for an answer; the first of a process may take six times as long [default:
     /// 10]
     #[arg(long, value_name = "S", requires = "command", value_parser = seconds)]
@@ -43,12 +45,12 @@ impl Foreign {
 
     /// The suite of the program, or `suite` without one. Its limits, baseline and records are in the folder that was
     /// `named`; without one, those of the program of this workspace are in a folder below `out`.
-    pub(super) fn in_place_of(&self, suite: Suite, named: Option<&Path>, out: &Path) -> Result<Suite, InputError> {
-        let Some(entry) = self.entry()? else { return Ok(suite) };
+    pub(super) fn in_place_of(&self, suite: Suite, named: Option<&Path>, out: &Path) -> anyhow::Result<Suite> {
+        let Some(program) = self.program() else { return Ok(suite) };
         let is_standard = *suite.commands() == Commands::of_this_workspace() && named.is_none();
         let folder = if is_standard { out.join(NAME) } else { suite.data().to_owned() };
         let commands = Commands { options: self.options(), ..suite.commands().clone() };
-        Ok(Suite::new(Registry::empty().with(entry)?).folder(folder).repeated_by(commands))
+        Ok(Suite::of_program(program.running(NAME))?.folder(folder).repeated_by(commands))
     }
 
     /// The options that give the same program, for the command that repeats a row.
@@ -59,7 +61,8 @@ impl Foreign {
         };
         [
             self.command.as_ref().map(quoted).unwrap_or_default(),
-            self.claim.map(|claim| format!(" --claim {claim:e}")).unwrap_or_default(),
+            self.claim.map(|claim| format!(" --claim {claim}")).unwrap_or_default(),
+            if self.bodies { " --bodies".to_owned() } else { String::new() },
             seconds("answer", self.answer_seconds),
             seconds("total", self.total_seconds),
             self.memory_mb.map(|megabytes| format!(" --memory-mb {megabytes}")).unwrap_or_default(),
@@ -67,9 +70,9 @@ impl Foreign {
         .concat()
     }
 
-    /// The program as an entry, if there is one.
-    fn entry(&self) -> Result<Option<SolverEntry>, InputError> {
-        let Some(command) = &self.command else { return Ok(None) };
+    /// The program, if there is one.
+    fn program(&self) -> Option<Program> {
+        let command = self.command.as_ref()?;
         let usual = Limits::default();
         let limits = Limits {
             answer: self.answer_seconds.unwrap_or(usual.answer),
@@ -78,11 +81,20 @@ impl Foreign {
         };
         let program = Program::new(command).with_summary(format!("the program `{}`", shown(command)));
         let program = program.with_limits(limits);
-        let program = match self.claim {
-            Some(claim) => program.with_claim(claim)?,
+        let program = if self.bodies { program.with_bodies() } else { program };
+        Some(match self.claim {
+            Some(claim) => program.claiming(claim),
             None => program,
-        };
-        Ok(Some(program.entry(NAME)))
+        })
+    }
+}
+
+/// A line for the shell that is not empty.
+fn command_line(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() {
+        Err("expected the line that starts the program".to_owned())
+    } else {
+        Ok(text.to_owned())
     }
 }
 

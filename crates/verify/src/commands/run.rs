@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use clap::{Args, ValueEnum};
-use dynamics::Toss;
+use dynamics::{Flight, Toss};
 use indicatif::{ProgressBar, ProgressStyle};
-use toss::{Formulation, StepControl};
+use toss::{Formulation, StepControl, Stepping};
 
 use super::program::Foreign;
 use crate::measure::atlas;
@@ -16,7 +16,7 @@ use crate::measure::case;
 use crate::measure::reference::Reference;
 use crate::measure::run::Run;
 use crate::render::report::{PROPOSAL, Report, Verdict};
-use crate::render::{github, junit, text, words};
+use crate::render::{diagnosis, github, junit, standing, text, words};
 use crate::shown::shown;
 use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
@@ -186,8 +186,8 @@ impl RunArgs {
         let compared = report.baseline.words(&report.moves);
         let (table, verdict) = (text::report(report, self.verbose), text::passing(&report.rows));
         let left_out = words::left_out(&report.left_out);
-        let written = written(report, out);
-        format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
+        let (standing, written) = (standing::sentences(report), written(report, out));
+        format!("{table}{moved}{verdict}{left_out}{standing}{compared}\n{written}")
     }
 }
 
@@ -225,6 +225,9 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());
     let mut table = text::runs(&runs, Conditioning::new(toss)?);
+    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
+        table += &diagnosis::example(&asked.example());
+    }
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
         let mut last = None;
         for found in check.again(&context, toss, &|_| true)? {
@@ -234,6 +237,14 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
         }
     }
     Ok((passes, table))
+}
+
+/// The tolerance of a program that is replayed.
+fn tolerance(control: Option<StepControl>) -> f64 {
+    match control {
+        Some(StepControl::Tolerance(tolerance)) => tolerance,
+        _ => Stepping::DEFAULT_TOLERANCE,
+    }
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.

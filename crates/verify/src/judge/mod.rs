@@ -40,6 +40,7 @@ pub(crate) mod tests {
             status: if measured <= limit { Status::Pass } else { Status::Fail },
             cases: 7,
             without_reference: 0,
+            without_answer: 0,
             worst_input: Some("i1=0x1.0p+0".to_owned()),
             failure: None,
             replay: Some(format!("fly 'i1=0x1.0p+0' by {subject}")),

@@ -75,6 +75,8 @@ pub struct Row {
     pub cases: u64,
     /// Number of further cases, which were not judged because there is no reference of them.
     pub without_reference: u64,
+    /// Number of cases in which the subject failed instead of giving an answer.
+    pub without_answer: u64,
     /// The input of the worst case, as the text of a toss or in words.
     pub worst_input: Option<String>,
     /// Why the subject failed on the worst case, if it did.
@@ -153,7 +155,7 @@ fn by_limit(measured: f64, limit: f64) -> Status {
 /// Neither a limit nor a claim can allow more than the ceiling. Where the ceiling is 0, a claim counts what is wrong, but
 /// `measured` also what is undecided.
 fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
-    let Measurement { subject, measured, cases, without_reference, worst, claim, judges } = measurement;
+    let Measurement { subject, measured, cases, without_reference, without_answer, worst, claim, judges } = measurement;
     let (largest, ceiling) = (Some(measured).filter(|largest| largest.is_finite()), check.ceiling);
     let limit = judge.limits.get(check.id, &subject).map(|limit| limit.min(ceiling));
     let (measured, limit, worst, status) = match (limit, claim) {
@@ -189,6 +191,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         status,
         cases,
         without_reference,
+        without_answer,
         worst_input,
         failure,
         replay: Some(judge.command(check, replay.as_ref())),

@@ -10,16 +10,19 @@
 //! | tosses: random ones and of last bits, bodies by families, those of an adversary, flights at the finest tolerances | `tosses`, `families`, `adversary`, `hostile` |
 //! | flights of every solver: on random launches, for long times, and near the places where methods fail | [`survey`], `long_flights`, [`atlas`] |
 //! | error by step and by work; drift of conserved quantities | `convergence`, [`work_precision`], `drift` |
+//! | launches of every kind, and what a wrong solver most likely does, by its answers to them | `any_launch`, [`diagnosis`] |
 //! | the accuracy of the planner | `planner` |
 //! | probabilities of the named spaces | [`tables`] |
 
 mod adversary;
+pub(crate) mod any_launch;
 pub mod atlas;
 pub mod case;
 pub mod check;
 pub mod checks;
 pub mod context;
 pub(crate) mod convergence;
+pub mod diagnosis;
 mod drift;
 pub mod effort;
 pub mod exact_landings;

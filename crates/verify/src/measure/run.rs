@@ -68,7 +68,7 @@ impl Allowance {
     }
 
     /// The errors that an error estimate allows.
-    pub(super) fn by_estimate(estimate: f64) -> Self {
+    pub(crate) fn by_estimate(estimate: f64) -> Self {
         let cos_tilt = estimate.max(COS_TILT_ERROR);
         Self { cos_tilt, attitude: 10.0 * cos_tilt }
     }

@@ -121,7 +121,15 @@ impl Fold {
             }
         };
         let worst = worst.map(|worst| trials[worst].worst(sizes[worst].1.clone()));
-        Measurement { measured, cases, worst, claim, ..Measurement::figure(subject, 0.0, 0, String::new()) }
+        let without_answer = trials.iter().filter(|trial| trial.deviation.is_err()).count() as u64;
+        Measurement {
+            measured,
+            cases,
+            without_answer,
+            worst,
+            claim,
+            ..Measurement::figure(subject, 0.0, 0, String::new())
+        }
     }
 }
 
@@ -150,6 +158,8 @@ pub struct Measurement {
     pub cases: u64,
     /// Number of further cases, which were not judged because there is no reference of them.
     pub without_reference: u64,
+    /// Number of cases in which the subject failed.
+    pub without_answer: u64,
     /// The case with the largest deviation.
     pub worst: Option<Worst>,
     /// What the solver's own error estimate allows.
@@ -196,7 +206,16 @@ impl Measurement {
     pub fn figure(subject: &str, measured: f64, cases: u64, input: String) -> Self {
         let measured = if measured.is_nan() { f64::INFINITY } else { measured };
         let (subject, worst) = (subject.to_owned(), Some(Worst { input, failure: None, replay: None }));
-        Self { subject, measured, cases, without_reference: 0, worst, claim: Claim::NoSolver, judges: None }
+        Self {
+            subject,
+            measured,
+            cases,
+            without_reference: 0,
+            without_answer: 0,
+            worst,
+            claim: Claim::NoSolver,
+            judges: None,
+        }
     }
 
     /// The largest of several measurements of one subject, with the claim of theirs that has the largest ratio of

@@ -9,15 +9,42 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
 use super::Limits;
-use super::protocol::{self, HEADER, Reply};
+use super::protocol::{self, HEADER, Reply, numbered};
 
 /// The longest line that is read in one piece. An answer is far shorter.
 const LONGEST_LINE: u64 = 4096;
 
+/// How many times as long as for an answer a process has for its first one.
+pub(super) const STARTS: u32 = 6;
+
 /// How often the memory of a process is looked at.
 const MEMORY_EVERY: Duration = Duration::from_millis(100);
 
+/// Why a process did not answer.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// What it did, in words that follow its name.
+    pub(super) words: String,
+    /// What it wrote, if anything.
+    pub(super) line: Option<String>,
+    /// Whether it took too long, so that another one may be faster.
+    pub(super) is_late: bool,
+}
+
+impl From<String> for Fault {
+    fn from(words: String) -> Self {
+        Self { words, line: None, is_late: false }
+    }
+}
+
+/// An answer, and the line that it was read from.
+pub(super) struct Answered {
+    pub(super) reply: Reply,
+    pub(super) line: String,
+}
+
 /// A running process.
+#[derive(Debug)]
 pub(super) struct Process {
     child: Child,
     stdin: Option<ChildStdin>,
@@ -48,17 +75,31 @@ impl Process {
         Ok(process)
     }
 
+    /// The number of its next question.
+    pub(super) fn next(&self) -> u64 {
+        self.asked + 1
+    }
+
     /// The answer to `question`, to which this process gives a number. The first answer may take as long as `start`.
-    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Reply, String> {
+    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Answered, Fault> {
         if let Ok(line) = self.lines.try_recv() {
-            return Err(unasked(&line));
+            return Err(unasked(&line).into());
         }
         self.asked += 1;
-        self.write(&format!("{},{question}", self.asked))?;
+        self.write(&numbered(self.asked, question))?;
         let limit = if self.asked == 1 { start } else { limits.answer };
-        let line = self.line(limit, limits.memory)?;
-        let nonsense = |why| format!("wrote {:?} where an answer is expected: {why}", beginning(&line));
-        protocol::answer(&line, self.asked).map_err(nonsense)
+        let line = self.line(limit, limits)?;
+        if self.asked == 1 {
+            // By now it has loaded its libraries. A fast program isn't waited for, so that it would not be looked at.
+            self.require_memory(limits.memory)?;
+        }
+        let nonsense = |why| Fault {
+            words: format!("wrote {:?} where an answer is expected: {why}", beginning(&line)),
+            line: Some(beginning(&line)),
+            is_late: false,
+        };
+        let reply = protocol::answer(&line, self.asked).map_err(nonsense)?;
+        Ok(Answered { reply, line: beginning(&line) })
     }
 
     fn write(&mut self, line: &str) -> Result<(), String> {
@@ -68,28 +109,51 @@ impl Process {
     }
 
     /// The next line of its standard output.
-    fn line(&mut self, limit: Duration, memory: u64) -> Result<String, String> {
+    fn line(&mut self, limit: Duration, limits: &Limits) -> Result<String, Fault> {
         let asked = Instant::now();
         loop {
             if self.looked.elapsed() > MEMORY_EVERY {
-                self.looked = Instant::now();
-                let used = resident_bytes(&family(self.child.id()));
-                if used > memory {
-                    return Err(format!("used {} MB of memory, and {} MB are its limit", used >> 20, memory >> 20));
-                }
+                self.require_memory(limits.memory)?;
             }
             match self.lines.recv_timeout(MEMORY_EVERY.min(limit)) {
                 Ok(line) => return Ok(line),
-                Err(RecvTimeoutError::Disconnected) => return Err(self.ended()),
+                Err(RecvTimeoutError::Disconnected) => return Err(self.ended().into()),
                 Err(RecvTimeoutError::Timeout) if asked.elapsed() >= limit => {
-                    let seconds = limit.as_secs_f64();
-                    return Err(format!(
-                        "gave no answer within {seconds} s (it has to write out each line, without buffering)"
-                    ));
+                    return Err(Fault { words: self.late(limit, limits), line: None, is_late: true });
                 }
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
+    }
+
+    /// Notes that its memory was looked at, and says if it is too much.
+    fn require_memory(&mut self, memory: u64) -> Result<(), String> {
+        self.looked = Instant::now();
+        let used = resident_bytes(&family(self.child.id()));
+        if used <= memory {
+            return Ok(());
+        }
+        Err(format!("used {} MB of memory, and {} MB are its limit", used >> 20, memory >> 20))
+    }
+
+    /// What it did in the time `limit`, in which it did not answer.
+    fn late(&self, limit: Duration, limits: &Limits) -> String {
+        let (number, seconds) = (self.asked, (limit.as_secs_f64() * 1e3).round() / 1e3);
+        if waits_for_input(&family(self.child.id())) {
+            return format!(
+                "read question {number}, wrote no answer within {seconds} s and waits for more input: it has to answer \
+                 each line before it reads the next one, and to write out each answer, without buffering"
+            );
+        }
+        // One that replaces another is known to start in less.
+        if number == 1 && limit == STARTS * limits.answer {
+            let answer = limits.answer.as_secs_f64();
+            return format!(
+                "gave no first answer within {seconds} s of its start (--answer-seconds {answer} times {STARTS}): if it \
+                 takes so long to load its libraries, raise --answer-seconds"
+            );
+        }
+        format!("gave no answer to question {number} within {seconds} s (--answer-seconds)")
     }
 
     /// Why the process no longer reads or writes. It may be about to end, so it is given a moment.
@@ -191,6 +255,14 @@ fn parent_of(folder: &Path) -> Option<(u32, u32)> {
     // The name of the program, which may contain anything, stands in parentheses before the state and the parent.
     let stat = std::fs::read_to_string(folder.join("stat")).ok()?;
     Some((id, stat.rsplit_once(") ")?.1.split(' ').nth(1)?.parse().ok()?))
+}
+
+/// Whether one of these processes waits for its input, and the others for their children, as far as Linux tells.
+fn waits_for_input(processes: &[u32]) -> bool {
+    let waits = |id: &u32| std::fs::read_to_string(format!("/proc/{id}/wchan")).unwrap_or_default();
+    let places: Vec<String> = processes.iter().map(waits).collect();
+    let reads = |place: &String| place.contains("pipe_read");
+    places.iter().any(reads) && places.iter().all(|place| reads(place) || place == "do_wait")
 }
 
 /// Resident memory of processes (bytes); 0 where there is no `/proc`.

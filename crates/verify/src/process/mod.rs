@@ -8,20 +8,25 @@ mod child;
 mod pool;
 mod protocol;
 
+use std::fmt;
+use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use dynamics::body_rate::rate_by_momentum;
 use dynamics::error::{Reason, require};
-use dynamics::{Fault, Flight, ForeignError};
-use toss::{
-    Attitude, CoinToss, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping,
-    Toss, Work,
-};
+use dynamics::{Fault, Flight, ForeignError, Phases};
+use rayon::prelude::*;
+use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
-use pool::Pool;
+use crate::measure::any_launch::TOLERANCE;
+use crate::measure::diagnosis::{self, Asked, Diagnosis};
+use crate::measure::reference::Reference;
+use crate::measure::run::Allowance;
+use pool::{Exchange, Pool};
+use protocol::{Landed, Question};
+
+pub use pool::Tally;
 pub use protocol::HEADER;
-use protocol::Landed;
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
@@ -34,8 +39,61 @@ const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 pub struct Program {
     command: String,
     summary: String,
-    claim: Option<f64>,
+    claim: Option<Claim>,
+    takes_bodies: bool,
     limits: Limits,
+}
+
+/// An error of cos θ that a program claims for all tosses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Claim {
+    error: f64,
+    is_per_radian: bool,
+}
+
+impl Claim {
+    /// The same error at any toss.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] if it is not above 0 and below 1.
+    pub fn flat(error: f64) -> Result<Self, InputError> {
+        let error = require("claim", error, "0 < claim < 1", error > 0.0 && error < 1.0)?;
+        Ok(Self { error, is_per_radian: false })
+    }
+
+    /// An error that grows by this with each radian of the phase φ: `error` times 1 + φ.
+    ///
+    /// # Errors
+    /// As [`Claim::flat`].
+    pub fn per_radian(error: f64) -> Result<Self, InputError> {
+        Ok(Self { is_per_radian: true, ..Self::flat(error)? })
+    }
+
+    /// The error that is claimed for `toss`; at most 2, as any answer at all is within.
+    fn of(&self, toss: &Toss) -> Result<f64, SolveError> {
+        let Phases { largest, growth } = Phases::new(toss)?;
+        Ok(if self.is_per_radian { (self.error * (1.0 + largest) * growth).min(2.0) } else { self.error })
+    }
+}
+
+/// As the option `--claim` takes it.
+impl fmt::Display for Claim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:e}{}", self.error, if self.is_per_radian { "/rad" } else { "" })
+    }
+}
+
+/// Reads `1e-9`, the same error at any toss, and `1e-12/rad`, one for each radian.
+impl FromStr for Claim {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = text.strip_suffix("/rad").unwrap_or(text);
+        let error = number.parse().ok().and_then(|error| Self::flat(error).ok());
+        let claim =
+            error.ok_or("expected an error above 0 and below 1, as in 1e-9, or one a radian, as in 1e-12/rad")?;
+        Ok(Self { is_per_radian: number != text, ..claim })
+    }
 }
 
 /// How long a program may take and how much memory it may use.
@@ -46,7 +104,8 @@ pub struct Limits {
     pub answer: Duration,
     /// For all answers, added up over the processes that run at once.
     pub total: Duration,
-    /// Resident memory of a process with its children, in bytes. It is looked at on Linux only, ten times a second.
+    /// Resident memory of a process with its children, in bytes. It is looked at on Linux only: after the first answer,
+    /// and ten times a second.
     pub memory: u64,
 }
 
@@ -58,20 +117,38 @@ impl Default for Limits {
 
 impl Program {
     /// The program that the shell starts by `command`. It integrates with the tolerance that it is asked for, and is
-    /// judged by the [error estimate](Stepping::error_estimate) of that tolerance, or by an error that it gives with
+    /// judged by the error that this tolerance [permits](Stepping::error_estimate), or by an error that it gives with
     /// its answers.
     pub fn new(command: impl Into<String>) -> Self {
         let command = command.into();
-        Self { summary: format!("the program `{command}`"), command, claim: None, limits: Limits::default() }
+        Self {
+            summary: format!("the program `{command}`"),
+            command,
+            claim: None,
+            takes_bodies: false,
+            limits: Limits::default(),
+        }
     }
 
-    /// The same program, which is judged by this error of cos θ at any toss, and asked for no other tolerance.
+    /// The same program, which is judged by this error of cos θ, and asked for no other tolerance.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the claim is not above 0 and below 1.
     pub fn with_claim(self, claim: f64) -> Result<Self, InputError> {
-        let claim = require("claim", claim, "0 < claim < 1", claim > 0.0 && claim < 1.0)?;
-        Ok(Self { claim: Some(claim), ..self })
+        Claim::flat(claim).map(|claim| self.claiming(claim))
+    }
+
+    /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
+    #[must_use]
+    pub fn claiming(self, claim: Claim) -> Self {
+        Self { claim: Some(claim), ..self }
+    }
+
+    /// The same program, which is asked for bodies with three moments, too. Without it, a program is asked for them if
+    /// one of its answers has the field `bodies=yes`.
+    #[must_use]
+    pub fn with_bodies(self) -> Self {
+        Self { takes_bodies: true, ..self }
     }
 
     /// The same program, about which its entry says this in one line; without it, its command line.
@@ -89,68 +166,156 @@ impl Program {
     /// The program as an entry called `name`. Its processes are started when they are asked first, one for each thread
     /// that asks, and are ended with the entry and all its solvers.
     pub fn entry(&self, name: &'static str) -> SolverEntry {
-        let pool = Arc::new(Pool::new(&self.command, self.limits));
-        let claim = self.claim;
-        let entry = SolverEntry::new(name, self.summary.clone(), move |settings| {
-            Box::new(ByProgram { name, pool: Arc::clone(&pool), stepping: settings.stepping, claim })
+        self.running(name).entry()
+    }
+
+    /// The program as a solver called `name`, which can also be asked what it was told and what it answered.
+    pub(crate) fn running(&self, name: &'static str) -> Running {
+        Running { name, program: self.clone(), pool: Arc::new(Pool::new(&self.command, self.limits)) }
+    }
+}
+
+/// A program with its processes.
+#[derive(Debug, Clone)]
+pub(crate) struct Running {
+    name: &'static str,
+    program: Program,
+    pool: Arc<Pool>,
+}
+
+impl Running {
+    pub(crate) fn entry(&self) -> SolverEntry {
+        let (running, is_claimed) = (self.clone(), self.program.claim.is_some());
+        let entry = SolverEntry::new(self.name, self.program.summary.clone(), move |settings| {
+            Box::new(ByProgram { running: running.clone(), stepping: settings.stepping })
         });
-        if claim.is_some() { entry } else { entry.with_schemes(&[OWN]) }
+        if is_claimed { entry } else { entry.with_schemes(&[OWN]) }
+    }
+
+    /// What became of the questions so far.
+    pub(crate) fn tally(&self) -> Tally {
+        self.pool.tally()
+    }
+
+    /// What the program most likely does wrong, by its answers to [launches of every kind](diagnosis::launches).
+    pub(crate) fn diagnosis(&self, subject: &str) -> Option<Diagnosis> {
+        let launches = diagnosis::launches().ok()?;
+        let asked = launches.par_iter().filter_map(|toss| self.asked(toss, TOLERANCE)).collect();
+        diagnosis::diagnosis(subject, asked)
+    }
+
+    /// What the program answers to `toss` at a tolerance, with its question as it got it, and what it is allowed.
+    pub(crate) fn asked(&self, toss: &Toss, tolerance: f64) -> Option<Asked> {
+        let stepping = Stepping::adaptive(OWN, tolerance).ok()?;
+        let solver = ByProgram { running: self.clone(), stepping };
+        let (question, exchange) = solver.exchange(toss).ok()?;
+        let answered = exchange.reply.as_ref().ok();
+        let allowed = match answered {
+            Some(landed) => Allowance::by_estimate(solver.error(toss, &question, landed).ok()??),
+            None => Allowance::by_estimate(0.0),
+        };
+        Some(Asked {
+            toss: *toss,
+            question: format!("{HEADER}\n{}", exchange.question),
+            line: exchange.line,
+            answer: exchange.reply.and_then(|landed| match landed.quaternion {
+                finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
+                _ => Err("answered a quaternion that is not finite".to_owned()),
+            }),
+            allowed,
+            exact: Reference::of(toss).ok()?,
+        })
     }
 }
 
 /// The solver that asks a program.
 struct ByProgram {
-    name: &'static str,
-    pool: Arc<Pool>,
+    running: Running,
     stepping: Stepping,
-    claim: Option<f64>,
 }
 
 impl ByProgram {
-    fn ask(&self, toss: &CoinToss) -> Result<Landed, SolveError> {
-        let flight = Flight::new(&Toss::from(*toss))?;
-        let tolerance = match (self.claim, self.stepping.control()) {
-            (Some(claim), _) => claim,
+    fn exchange(&self, toss: &Toss) -> Result<(Question, Exchange), SolveError> {
+        let flight = Flight::new(toss)?;
+        let tolerance = match (self.running.program.claim, self.stepping.control()) {
+            (Some(claim), _) => claim.error,
             (None, StepControl::Tolerance(tolerance)) => flight.tightened(tolerance),
             (None, StepControl::Step(_)) => {
                 return Err(SolveError::NotOffered { scheme: self.stepping.scheme().name() });
             }
         };
-        let failed = |words| {
-            let source = Reason::from(ForeignError::from(words));
-            SolveError::Failed { solver: self.name.to_owned(), source }
-        };
-        self.pool.ask(&protocol::question(toss, &flight, tolerance)).map_err(failed)
+        let question = Question::new(toss, &flight, tolerance);
+        let exchange = self.running.pool.ask(&question.line());
+        Ok((question, exchange))
+    }
+
+    /// The error of cos θ that is claimed, or else the one that the tolerance permits.
+    fn error(&self, toss: &Toss, question: &Question, landed: &Landed) -> Result<Option<f64>, SolveError> {
+        let claimed = self.running.program.claim.map(|claim| claim.of(toss)).transpose()?;
+        let Some(error) = claimed.or(landed.error) else { return self.stepping.error_estimate(toss) };
+        if !question.is_rounded() {
+            return Ok(Some(error));
+        }
+        // The program can't know how far its question was from the body that was meant.
+        let Phases { largest, growth } = Phases::new(toss)?;
+        Ok(Some((error + 8.0 * f64::EPSILON * (1.0 + largest) * growth).min(2.0)))
     }
 
     fn misbehaved(&self, field: &'static str, value: f64) -> SolveError {
-        SolveError::Misbehaved { solver: self.name.to_owned(), fault: Fault::Answer { field, value } }
+        SolveError::Misbehaved { solver: self.name().to_owned(), fault: Fault::Answer { field, value } }
+    }
+
+    fn takes_bodies(&self) -> bool {
+        let Running { program, pool, .. } = &self.running;
+        if program.takes_bodies || pool.takes_bodies() {
+            return true;
+        }
+        // Before the first answer nothing is known of it.
+        pool.gives_errors().is_none() && {
+            pool.ask(FIRST);
+            pool.takes_bodies()
+        }
     }
 }
 
+/// A question whose answer is known: a coin that does not turn.
+const FIRST: &str = "1.0,0.5,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1e-10,1.0";
+
 impl Solver for ByProgram {
     fn name(&self) -> &str {
-        self.name
+        self.running.name
     }
 
     fn stepping(&self) -> Option<Stepping> {
-        self.claim.is_none().then_some(self.stepping)
+        self.running.program.claim.is_none().then_some(self.stepping)
+    }
+
+    fn estimates_its_error(&self) -> bool {
+        self.running.program.claim.is_some() || self.running.pool.gives_errors() != Some(false)
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
-        let coin = toss.of_coin(self.name, "the protocol of programs has two moments")?;
-        let Landed { quaternion, calls, error } = self.ask(&coin)?;
-        let norm = nalgebra::Vector4::from(quaternion).norm();
+        if toss.coin().is_none() && !self.takes_bodies() {
+            return Err(SolveError::NotSymmetric {
+                solver: self.name().to_owned(),
+                why: "without --bodies, a program is asked for coins alone",
+            });
+        }
+        let (question, exchange) = self.exchange(toss)?;
+        let failed = |words| {
+            let source = Reason::from(ForeignError::from(words));
+            SolveError::Failed { solver: self.name().to_owned(), source }
+        };
+        let landed = exchange.reply.map_err(failed)?;
+        let norm = nalgebra::Vector4::from(landed.quaternion).norm();
         if !NORMS.contains(&norm) {
             return Err(self.misbehaved("the norm of the quaternion", norm));
         }
-        let attitude = Attitude::from_components(quaternion).map_err(|_| self.misbehaved("the norm", norm))?;
-        let state = State { attitude, rate: rate_by_momentum(&coin, &attitude) };
-        let work = Work { rhs_calls: calls, ..Work::default() };
-        let error = match self.claim.or(error) {
-            None => self.stepping.error_estimate(toss)?,
-            claim => claim,
-        };
+        let attitude = Attitude::from_components(question.in_body(landed.quaternion));
+        let attitude = attitude.map_err(|_| self.misbehaved("the norm", norm))?;
+        let state = question.state(toss, attitude, landed.rate);
+        let work = Work { rhs_calls: landed.calls, ..Work::default() };
+        let error = self.error(toss, &question, &landed)?;
         Ok(Landing::new(state, work).with_norm_error((norm - 1.0).abs()).with_error(error))
     }
 }

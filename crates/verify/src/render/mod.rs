@@ -2,6 +2,7 @@
 //! or judged here.
 
 pub mod charts;
+pub(crate) mod diagnosis;
 mod folder;
 pub(crate) mod github;
 pub(crate) mod html;
@@ -9,6 +10,7 @@ pub(crate) mod junit;
 pub(crate) mod metrics;
 pub(crate) mod pattern;
 pub mod report;
+pub(crate) mod standing;
 pub(crate) mod text;
 pub(crate) mod words;
 

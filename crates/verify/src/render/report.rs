@@ -13,11 +13,13 @@ use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
 use crate::judge::{LeftOut, Row, limits};
 use crate::measure::context::Context;
+use crate::measure::diagnosis::Diagnosis;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
+use crate::process::Tally;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 8;
+const SCHEMA: u32 = 9;
 
 /// Name of the file with proposed limits, beside the reports.
 pub(crate) const PROPOSAL: &str = "limits.proposed.toml";
@@ -58,6 +60,10 @@ pub struct Report {
     pub moves: Vec<Move>,
     /// The checks that gave no row, with the reasons.
     pub left_out: Vec<LeftOut>,
+    /// What solvers with failing rows most likely do wrong.
+    pub diagnoses: Vec<Diagnosis>,
+    /// What became of the questions to a program; `None` if no program was asked.
+    pub program: Option<Tally>,
     /// The solvers, and the runs behind some of the rows.
     #[serde(rename = "records", serialize_with = "serialized")]
     pub context: Arc<Context>,
@@ -151,8 +157,16 @@ impl Report {
             baseline,
             moves,
             left_out,
+            diagnoses: Vec::new(),
+            program: None,
             context,
         }
+    }
+
+    /// The same report with what solvers most likely do wrong, and what became of the questions to a program.
+    #[must_use]
+    pub fn with_diagnoses(self, diagnoses: Vec<Diagnosis>, program: Option<Tally>) -> Self {
+        Self { diagnoses, program, ..self }
     }
 
     /// The verdict on the whole run.

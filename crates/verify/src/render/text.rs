@@ -6,8 +6,8 @@
 
 use std::fmt::Write;
 
-use super::Report;
 use super::words::{Group, comparison, reserve, unjudged, verdict};
+use super::{Report, diagnosis};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -25,7 +25,7 @@ pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
 
 /// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
 pub(crate) fn report(report: &Report, verbose: bool) -> String {
-    let mut out = format!("\n{}\n", report.pattern);
+    let mut out = format!("\n{}{}\n", diagnosis::paragraph(report), report.pattern);
     let blocks = Group::checks(&report.rows);
     if !verbose {
         let _ = writeln!(out, "\n{:<width$}  rows  worst row", "check", width = width());
@@ -33,10 +33,10 @@ pub(crate) fn report(report: &Report, verbose: bool) -> String {
     for block in &blocks {
         out += &if verbose { every_row(block) } else { summary(block) };
     }
-    for row in blocks.iter().flat_map(|block| &block.rows).filter(|row| !row.status.passes()) {
-        out += &in_full(row);
-    }
-    out
+    let failing = blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes());
+    let (shown, same) = diagnosis::folded(report, failing.collect());
+    out += &shown.into_iter().map(in_full).collect::<String>();
+    out + &same
 }
 
 /// Whether the run passes, and how many rows do.
@@ -81,6 +81,10 @@ fn in_full(row: &Row) -> String {
     let judges = row.judges.map(|judges| judges.name().to_owned());
     for (what, text) in [
         ("why", &row.failure),
+        (
+            "launches without an answer",
+            &(row.without_answer > 0).then(|| format!("{} of {}", row.without_answer, row.cases)),
+        ),
         ("judges the", &judges),
         ("worst input", &row.worst_input),
         ("repeat with", &row.replay),

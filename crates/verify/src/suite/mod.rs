@@ -30,8 +30,10 @@ use crate::judge::time::Timing;
 use crate::judge::{Judge, LeftOut, record, require_distinct, unused_limits};
 use crate::measure::check::{Check, Judges};
 use crate::measure::context::Context;
+use crate::measure::diagnosis::{self, Diagnosis};
 use crate::measure::effort::Effort;
 use crate::measure::replay::Commands;
+use crate::process::Running;
 use crate::render::report::{Compared, Report, Verdict};
 use crate::shown::shown;
 use crate::watch::{self, End};
@@ -53,6 +55,7 @@ pub struct Suite {
     of_the_library: bool,
     time_factor: f64,
     error_ratio: f64,
+    program: Option<Running>,
 }
 
 /// What a run tells while it goes on.
@@ -80,6 +83,7 @@ impl Suite {
             of_the_library: false,
             time_factor: 1.0,
             error_ratio: ERROR_RATIO,
+            program: None,
         }
     }
 
@@ -157,6 +161,17 @@ impl Suite {
         Self { commands, ..self }
     }
 
+    /// A suite for a program, which is asked for more than its landings if it fails.
+    pub(crate) fn of_program(program: Running) -> anyhow::Result<Self> {
+        let registry = Registry::empty().with(program.entry())?;
+        Ok(Self { program: Some(program), ..Self::new(registry) })
+    }
+
+    /// The program that it judges, if it judges one.
+    pub(crate) fn program(&self) -> Option<&Running> {
+        self.program.as_ref()
+    }
+
     /// How its program is started.
     pub(crate) fn commands(&self) -> &Commands {
         &self.commands
@@ -204,7 +219,24 @@ impl Suite {
         let found = Baseline::of(&rows, context.sweep.found());
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
         let compared = Compared { file: shown(&path.display().to_string()), found: baseline.is_some(), written: false };
-        Ok(Report::new(context, rows, timings, compared, moves, left_out))
+        let diagnoses = self.diagnoses(&context, &rows)?;
+        let asked = self.program().map(Running::tally);
+        Ok(Report::new(context, rows, timings, compared, moves, left_out).with_diagnoses(diagnoses, asked))
+    }
+
+    /// What solvers with failing rows most likely do wrong.
+    fn diagnoses(&self, context: &Context, rows: &[Row]) -> anyhow::Result<Vec<Diagnosis>> {
+        let fails = |subject: &str| {
+            let is_of = |row: &&Row| row.subject == subject && row.judges == Some(Judges::Solver);
+            rows.iter().filter(is_of).any(|row| !row.status.passes())
+        };
+        if let Some(program) = &self.program {
+            let subject = context.subjects.iter().map(|subject| &subject.name).find(|subject| fails(subject));
+            let asked = || program.diagnosis(subject?);
+            return Ok(asked().into_iter().collect());
+        }
+        let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails));
+        Ok(of_entries.collect::<anyhow::Result<Vec<_>>>()?.concat())
     }
 
     fn measure(

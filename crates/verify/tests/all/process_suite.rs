@@ -2,6 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use toss::{Scheme, SolverEntry};
+use verify::process::Program;
+use verify::{CHECKS, Context, Effort};
+
 use crate::programs::{answering, example, has};
 
 /// What `verify run` with a program prints and its exit code.
@@ -24,7 +28,7 @@ fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
     // What else a program may do, `process.rs` asks of its solver.
     for (command, why) in [
         ("cat", "wrote \"id,i1,i3"),
-        ("sleep 1000", "gave no answer within 3 s"),
+        ("sleep 1000", "gave no first answer within 3 s"),
         (&*answering("echo $id,nan,0,0,0"), "the norm of the quaternion = NaN"),
     ] {
         let began = Instant::now();
@@ -36,10 +40,65 @@ fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
         assert!(text.contains(&format!(" --command '{command}' --answer-seconds 0.5 --memory-mb 200")), "{text}");
         assert!(began.elapsed() < Duration::from_secs(60), "{command}: {:?}", began.elapsed());
     }
-    for arguments in [["--claim", "1e-9"], ["--command", "true --claim"]] {
-        let refused = verified(&[&arguments[..], &["--claim", "2"]].concat());
-        assert!(matches!(refused.1, Some(2 | 4)), "{refused:?}");
+    for refused in [
+        ["--claim", "1e-9"].as_slice(),
+        &["--command", "true", "--claim", "0"],
+        &["--command", "true", "--claim", "nan"],
+        &["--command", "true", "--claim", "1/rad"],
+        &["--command", " "],
+        &["--bodies"],
+    ] {
+        assert_eq!(verified(refused).1, Some(2), "{refused:?}");
     }
+}
+
+/// The first lines say what the program does wrong, before any table, and a replay shows the question as it got it.
+#[test]
+fn the_first_lines_name_the_likeliest_cause() {
+    let still = answering("echo $id,$w,$x,$y,$z");
+    let (text, code) = verified(&["--command", &still]);
+    let cause =
+        "\ncommand/own: right if nothing moves: it answers the attitude at launch: 1000 of 1000.\nFails: command";
+    assert!(code == Some(1) && text.contains(cause), "{code:?}, {text}");
+    let toss = "moments=1.0,0.5 rate=1.0,0.0,0.0 time=1.0 tilt=0.0";
+    let (text, code) = verify(&["--replay", toss, "--command", &still]);
+    let shown = "  id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance,i2\n  \
+                 2,1.0,0.5,1.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,1e-10,1.0\n  \
+                 answer:   2,1.0,0.0,0.0,0.0\n  expected: 0.877582561890372";
+    assert!(code == Some(1) && text.contains(shown) && text.contains("cos θ = 0.5403023058681398"), "{code:?}, {text}");
+}
+
+/// What the tolerance permits is no claim, so that a right program or stepper may be far more accurate.
+#[test]
+fn a_solver_that_states_no_error_claims_none() {
+    let check = CHECKS.iter().find(|check| check.id == "claims-measured").expect("a check");
+    let claims = |entry: SolverEntry| {
+        let context = Context::new(&[entry], Effort::Quick).expect("a context");
+        check.measure(&context).expect("rows").len()
+    };
+    let program = |body: &str| Program::new(answering(body));
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").entry("program")), 0);
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z,error=1e-3").entry("program")), 1);
+    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").with_claim(1e-3).expect("a claim").entry("program")), 1);
+    let stepper = SolverEntry::from_stepper("stepper", "", &[Scheme::DOP853], |system, _| {
+        Ok((system.start(), system.work(1, 0)))
+    });
+    assert_eq!(claims(stepper), 0);
+}
+
+#[test]
+fn restarts_and_launches_without_an_answer_are_counted() {
+    let dies = answering("[ $id = 100 ] && exit; echo $id,$w,$x,$y,$z");
+    let (text, code) = verified(&["--command", &dies, "--format", "json"]);
+    // Behind the report stands what was said on standard error.
+    let first = serde_json::Deserializer::from_str(&text).into_iter::<serde_json::Value>().next();
+    let report = first.expect("a report").expect(&text);
+    let (row, program) = (&report["rows"][0], &report["program"]);
+    assert!(code == Some(1) && row["without_answer"].as_u64() >= Some(8), "{row}");
+    assert!(program["starts"].as_u64() >= Some(10) && program["without_answer"].as_u64() >= Some(8), "{program}");
+    let (text, _) = verified(&["--command", &dies]);
+    assert!(text.contains("The program was started ") && text.contains(" launches are without an answer"), "{text}");
+    assert!(text.contains("launches without an answer: ") && text.contains(" of 1000\n"), "{text}");
 }
 
 #[test]

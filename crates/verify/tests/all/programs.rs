@@ -6,7 +6,7 @@ use std::process::Command;
 /// A loop of the shell that reads the header and then answers each question by `body`, which has the number in `$id`
 /// and the time of flight in `$time`.
 pub(crate) fn answering(body: &str) -> String {
-    format!("read -r header; while IFS=, read -r id i1 i3 a b c w x y z time tolerance; do {body}; done")
+    format!("read -r header; while IFS=, read -r id i1 i3 a b c w x y z time tolerance i2; do {body}; done")
 }
 
 /// The program in Python that the page for authors shows, as a file.

@@ -92,11 +92,20 @@ impl Reference {
 
     /// The toss of a coin in closed form.
     pub fn new(toss: &CoinToss) -> Self {
-        let [x, y, z] = rates(&toss.launch);
-        let k = inertia_ratio(&toss.coin);
+        let flight = time(toss.launch.time_of_flight());
+        Self::of_coin(inertia_ratio(&toss.coin), rates(&toss.launch), &flight, &quaternion(&toss.launch.attitude()))
+    }
+
+    /// The same by plain numbers: the inertia ratio k, which may be that of no coin, ω (rad/s), the time (s) and the
+    /// attitude at launch. This is what a solver lands that takes other numbers than it was given.
+    pub(crate) fn of_numbers(k: f64, rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
+        Self::of_coin(big(k), rate.map(big), &big(time), &normalised(attitude.map(big)))
+    }
+
+    fn of_coin(k: Big, [x, y, z]: [Big; 3], time: &Big, launch: &[Big; 4]) -> Self {
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
-        let half_time = time(toss.launch.time_of_flight()) / big(2.0);
+        let half_time = time / big(2.0);
         let half_phase = &precession * &half_time;
         let (sin, cos) = sin_cos(&half_phase);
         // Without angular momentum there is no direction to turn about, and no turn.
@@ -108,9 +117,8 @@ impl Reference {
         let (sin_spin, cos_spin) = (&sin_half * &cos_half * big(2.0), &cos_half * &cos_half - &sin_half * &sin_half);
         let error = ERROR_OF_A_COIN * (1.0 + to_f64(&half_phase) + to_f64(&half_spin).abs());
         let spin = [cos_half, big(0.0), big(0.0), -sin_half];
-        let launch = quaternion(&toss.launch.attitude());
         let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
-        Self { attitude: product(&product(&launch, &turn), &spin), rate, error }
+        Self { attitude: product(&product(launch, &turn), &spin), rate, error }
     }
 
     /// The toss of a coin, or of another body [for which it is solved](rigid), in closed form.
@@ -169,6 +177,16 @@ impl Reference {
     /// Angle between a computed attitude and the exact one (rad).
     pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
         angle(&attitude.components().map(big), &self.attitude)
+    }
+
+    /// The attitude, rounded.
+    pub(crate) fn components(&self) -> [f64; 4] {
+        [0, 1, 2, 3].map(|part| to_f64(&self.attitude[part]))
+    }
+
+    /// cos θ, rounded.
+    pub(crate) fn rounded_cos_tilt(&self) -> f64 {
+        to_f64(&self.cos_tilt())
     }
 
     /// The small turn from this landing to `other`, as its axis in BF times its angle (rad). Correct up to the third

@@ -1,0 +1,95 @@
+//! Launches of coins with all that a launch may have: any two moments, any attitude Q or -Q, slow and fast rates, no time
+//! and long flights. Random launches of a hand start level or tilted about one axis, and a solver that ignores the rest is
+//! right on them. A diagnosis of a wrong solver is made from its answers to these.
+
+use dynamics::{Phases, Toss};
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+use toss::{Attitude, Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
+
+use super::subject::{Subject, by_kind};
+use super::tosses::{decades, one, stream};
+
+const SEED: u64 = 20_280_229;
+
+/// The tolerance of the solvers that fly them.
+pub(crate) const TOLERANCE: f64 = 1e-9;
+
+/// The step of schemes without a tolerance, in units of 1/|ω|.
+const STEP: f64 = 0.02;
+
+/// The phase (rad) above which a solver may return an error.
+const DECLINED: f64 = 1e3;
+
+/// So many launches, of which the first are given by few digits each.
+pub(crate) fn tosses(number: u64) -> Result<Vec<Toss>, InputError> {
+    let simple = simple()?;
+    let drawn = (simple.len() as u64..number).map(|index| drawn(&mut stream(SEED, index), index));
+    simple.into_iter().map(Ok).chain(drawn).map(|toss| toss.map(Toss::from)).collect()
+}
+
+/// The solver of `entry` that flies `toss`.
+pub(crate) fn subject(entry: &SolverEntry, scheme: Option<Scheme>, toss: &Toss) -> Result<Subject, InputError> {
+    let step = (STEP / toss.launch.turn_rate()).min(f64::MAX);
+    let stepping = |scheme: Scheme| by_kind(scheme, TOLERANCE, step);
+    Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
+}
+
+/// Whether the flight is so long that an error is no fault.
+pub(crate) fn may_be_declined(toss: &Toss) -> bool {
+    !Phases::new(toss).is_ok_and(|phases| phases.largest <= DECLINED)
+}
+
+/// Launches whose numbers anybody can follow by hand.
+fn simple() -> Result<Vec<CoinToss>, InputError> {
+    let attitudes = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5]];
+    let rates = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 2.0], [1.0, 2.0, 3.0]];
+    let mut all = Vec::new();
+    for (i1, i3) in [(1.0, 0.5), (2.0, 3.0)] {
+        for attitude in attitudes {
+            for rate in rates {
+                for time in [0.5, 1.0] {
+                    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?;
+                    let launch = launch.with_attitude(Attitude::from_components(attitude)?);
+                    all.push(CoinToss { coin: Coin::from_moments(i1, i3)?, launch });
+                }
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
+    let k = match index % 5 {
+        0 => one(rng, [0.0, 0.5, 1.0, 1.5, 2.0]),
+        _ => rng.random_range(0.01..2.0),
+    };
+    // A power of two keeps every digit of the ratio.
+    let i1 = 2f64.powi(rng.random_range(-20..10));
+    let direction = Vector3::<f64>::from_fn(|_, _| rng.random_range(-1.0..1.0));
+    let rate = direction / direction.amax() * decades(rng, -2.9, 2.9);
+    let turn_rate = Vector3::new(rate.x, rate.y, k * rate.z).norm().max(((k - 1.0) * rate.z).abs());
+    let phase = match index % 80 {
+        0 | 40 => 0.0,
+        1 => decades(rng, 3.1, 3.4),
+        _ => decades(rng, -2.0, 2.5),
+    };
+    let launch = Launch::new(rate, TimeOfFlight::Given(phase / turn_rate))?;
+    Ok(CoinToss { coin: Coin::from_moments(i1, k * i1)?, launch: launch.with_attitude(attitude(rng, index)?) })
+}
+
+/// One in eight is level, one level and turned about the vertical, one tilted about x, the others are any; half of all are
+/// -Q of such a one.
+fn attitude(rng: &mut ChaCha8Rng, index: u64) -> Result<Attitude, InputError> {
+    let angle: f64 = rng.random_range(-3.0..3.0);
+    let attitude = match index % 8 {
+        0 => Attitude::IDENTITY,
+        1 => Attitude::about_z(angle),
+        2 => Attitude::about_x(angle),
+        _ => Attitude::from_components([0; 4].map(|_| rng.random_range(-1.0..1.0)))?,
+    };
+    match index / 8 % 2 {
+        0 => Ok(attitude),
+        _ => Attitude::from_components(attitude.components().map(|part| -part)),
+    }
+}

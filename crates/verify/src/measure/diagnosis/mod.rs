@@ -1,0 +1,339 @@
+//! What a wrong solver most likely does, told from its answers to [launches of every kind](super::any_launch): a known
+//! mistake that explains them, an error that is merely larger than allowed, or the launches on which alone it is right. If
+//! none of these holds, the smallest question that fails is shown. The judge of all of it is the reference.
+
+mod hypotheses;
+
+use std::cmp::Ordering;
+
+use dynamics::{Phases, Toss};
+use rayon::prelude::*;
+use serde::Serialize;
+use toss::{Attitude, SolverEntry};
+
+use self::hypotheses::{HYPOTHESES, Hypothesis, Numbers};
+use super::any_launch;
+use super::case;
+use super::reference::Reference;
+use super::run::Allowance;
+use super::subject::by_scheme;
+
+/// The number of launches that a diagnosis asks for.
+const LAUNCHES: u64 = 1000;
+
+/// The part of the answers that a cause has to explain.
+const EXPLAINED: f64 = 0.95;
+
+/// A few wrong answers show which hypotheses are worth trying on all.
+const TRIED: usize = 24;
+
+/// An angle (rad) by which answers may differ from what a hypothesis says, beside ten times what is allowed.
+const NEAR: f64 = 1e-6;
+
+/// A solver is right but for its accuracy if all its errors are below this (rad).
+const ROUGH: f64 = 1e-2;
+
+/// The least and the largest norm of a quaternion that is taken for one of norm 1.
+const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
+
+/// What stands before the reason why a program was given up.
+pub(crate) const GIVEN_UP: &str = "is no longer asked: it ";
+
+/// A launch that a solver was asked for, with its answer.
+#[derive(Debug)]
+pub struct Asked {
+    /// The toss.
+    pub toss: Toss,
+    /// The question as the solver got it.
+    pub question: String,
+    /// The answer as it was written, if it wrote any.
+    pub line: Option<String>,
+    /// The quaternion from BF to LF that was answered, or why there is none.
+    pub answer: Result<[f64; 4], String>,
+    /// The errors that are allowed.
+    pub allowed: Allowance,
+    /// The exact landing.
+    pub exact: Reference,
+}
+
+/// What a wrong solver most likely does.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Diagnosis {
+    /// The solver, with its scheme.
+    pub subject: String,
+    /// The likeliest cause, in words.
+    pub cause: String,
+    /// Whether the cause explains every answer.
+    pub explains_all: bool,
+    /// The number of launches that it was asked for.
+    pub launches: u64,
+    /// The number of right answers.
+    pub right: u64,
+    /// The number of launches without an answer.
+    pub without_answer: u64,
+    /// The smallest question that fails.
+    pub example: Example,
+}
+
+/// A question with a wrong answer or none.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Example {
+    /// The question as the solver got it.
+    pub question: String,
+    /// The answer, or why there is none.
+    pub answer: String,
+    /// The attitude at landing and cos θ by the reference.
+    pub expected: String,
+}
+
+impl Asked {
+    /// What the solver of `entry` answers to `toss`.
+    fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, toss: &Toss) -> Option<Self> {
+        let by = any_launch::subject(entry, scheme, toss).ok()?;
+        let landing = by.solver.land(toss);
+        let (answer, estimate) = match &landing {
+            Ok(landing) => (Ok(landing.state.attitude.components()), landing.error),
+            Err(error) => (Err(error.to_string()), None),
+        };
+        // Whoever states nothing is taken by a rough measure.
+        let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
+        let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
+        let question = case::text(toss) + &case::settings(&by);
+        Some(Self { toss: *toss, question, line, answer, allowed, exact: Reference::of(toss).ok()? })
+    }
+
+    /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad);
+    /// `None` without a quaternion of norm 1.
+    fn errors(&self) -> Option<[f64; 2]> {
+        let answer = self.answer.as_ref().ok()?;
+        let norm = nalgebra::Vector4::from(*answer).norm();
+        let attitude = Attitude::from_components(*answer).ok().filter(|_| NORMS.contains(&norm))?;
+        let angle = self.exact.attitude_error(&attitude);
+        let cos_tilt = self.exact.cos_tilt_error(attitude.cos_tilt());
+        Some([(cos_tilt / self.allowed.cos_tilt).max(angle / self.allowed.attitude), angle])
+    }
+
+    fn is_right(&self) -> bool {
+        self.errors().is_some_and(|[part, _]| part <= 1.0)
+    }
+
+    /// Whether `hypothesis` explains the answer; `None` if it says nothing of this question.
+    fn is_explained(&self, hypothesis: &Hypothesis) -> Option<bool> {
+        let asked = Numbers::of(&self.toss)?;
+        let Numbers { k, rate, time, attitude, .. } = (hypothesis.ask)(asked);
+        if ![k, rate[0], rate[1], rate[2], time].iter().all(|number| number.is_finite()) {
+            return None;
+        }
+        let answer = (hypothesis.read)(&asked, *self.answer.as_ref().ok()?);
+        let Ok(answer) = Attitude::from_components(answer) else { return Some(false) };
+        let off = Reference::of_numbers(k, rate, time, attitude).attitude_error(&answer);
+        Some(off <= 10.0 * self.allowed.attitude.max(NEAR))
+    }
+
+    /// The fewer digits a question has, and the shorter its flight, the easier it is to follow.
+    fn size(&self) -> (usize, f64) {
+        (
+            self.question.split_once('\n').map_or(self.question.len(), |(_, numbers)| numbers.len()),
+            self.toss.launch.flight_time(),
+        )
+    }
+
+    /// The question with its answer and what was expected.
+    pub(crate) fn example(&self) -> Example {
+        let [w, x, y, z] = self.exact.components();
+        let cos_tilt = self.exact.rounded_cos_tilt();
+        let why = self.answer.as_ref().err().cloned().unwrap_or_default();
+        Example {
+            question: self.question.clone(),
+            answer: self.line.clone().unwrap_or_else(|| format!("none: {why}")),
+            expected: format!("{w:?},{x:?},{y:?},{z:?} (or its negative), cos θ = {cos_tilt:?}"),
+        }
+    }
+}
+
+/// The launches of which a diagnosis is made.
+///
+/// # Errors
+/// Never: they are fixed and valid.
+pub fn launches() -> anyhow::Result<Vec<Toss>> {
+    Ok(any_launch::tosses(LAUNCHES)?)
+}
+
+/// What the solver of `entry` most likely does wrong with each of its schemes, by those whose rows `fails` says to fail.
+pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> anyhow::Result<Vec<Diagnosis>> {
+    let launches = launches()?;
+    let of_scheme = |(entry, scheme): (&SolverEntry, Option<toss::Scheme>)| {
+        let name = any_launch::subject(entry, scheme, &launches[0]).ok()?.name;
+        let asked = || launches.par_iter().filter_map(|toss| Asked::of(entry, scheme, toss)).collect();
+        if fails(&name) { diagnosis(&name, asked()) } else { None }
+    };
+    Ok(by_scheme(entry).filter_map(of_scheme).collect())
+}
+
+/// The likeliest cause of the wrong answers of `subject`; `None` if all are right.
+pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
+    let is_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
+    asked.retain(|one| is_silent || one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
+    let (right, wrong): (Vec<&Asked>, Vec<&Asked>) = asked.iter().partition(|one| one.is_right());
+    let smallest = wrong.iter().min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?;
+    let silent: Vec<&Asked> = wrong.iter().copied().filter(|one| one.answer.is_err()).collect();
+    let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
+    let unanswered = |is_it: bool| is_it.then(|| (no_answer(&silent, asked.len()), true));
+    // A few wrong answers are rather those of some launches than of a rough solver.
+    let is_rare = wrong.len() * 10 < asked.len();
+    let cause = unanswered(silent.len() * 2 > asked.len())
+        .or_else(|| if is_rare { split(&asked) } else { None })
+        .or_else(|| unanswered(silent.len() == wrong.len()))
+        .or_else(|| rough(&answered, asked.len()))
+        .or_else(|| mistake(&answered, asked.len()))
+        .or_else(|| split(&asked));
+    let unexplained = || {
+        let (wrong, all) = (wrong.len(), asked.len());
+        (
+            format!(
+                "wrong in {wrong} of {all} launches, for a reason that none of the {} known mistakes explains",
+                HYPOTHESES.len()
+            ),
+            false,
+        )
+    };
+    let (cause, explains_all) = cause.unwrap_or_else(unexplained);
+    Some(Diagnosis {
+        subject: subject.to_owned(),
+        cause,
+        explains_all,
+        launches: asked.len() as u64,
+        right: right.len() as u64,
+        without_answer: silent.len() as u64,
+        example: smallest.example(),
+    })
+}
+
+/// A cause in words, and whether it explains every answer.
+type Cause = (String, bool);
+
+/// The most frequent reason why there is no answer.
+fn no_answer(silent: &[&Asked], all: usize) -> String {
+    let reasons = silent.iter().filter_map(|one| one.answer.as_ref().err());
+    // A program that is given up says of all launches that follow what it did.
+    let mut reasons: Vec<&str> = reasons.map(|why| why.strip_prefix(GIVEN_UP).unwrap_or(why)).collect();
+    reasons.sort_unstable();
+    let most = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
+    let reason = most.and_then(|same| same.first()).copied().unwrap_or_default();
+    format!("no answer to {} of {all} launches: {reason}", silent.len())
+}
+
+/// A known mistake that explains nearly all answers, the wrong and the right ones.
+fn mistake(answered: &[&Asked], all: usize) -> Option<Cause> {
+    let wrong: Vec<&Asked> = answered.iter().copied().filter(|one| !one.is_right()).collect();
+    let few: Vec<&Asked> = wrong.iter().copied().step_by((wrong.len() / TRIED).max(1)).collect();
+    let share = |explained: &[Option<bool>]| {
+        let (said, so) = (explained.iter().flatten().count(), explained.iter().flatten().filter(|is| **is).count());
+        if said == 0 { (0.0, 0) } else { (so as f64 / said as f64, so) }
+    };
+    let tried = |hypothesis: &Hypothesis, on: &[&Asked]| -> (f64, usize) {
+        share(&on.par_iter().map(|one| one.is_explained(hypothesis)).collect::<Vec<_>>())
+    };
+    let explains =
+        |hypothesis: &&Hypothesis| tried(hypothesis, &few).0 > 0.75 && tried(hypothesis, &wrong).0 >= EXPLAINED;
+    let scored = HYPOTHESES.iter().filter(explains).map(|hypothesis| (tried(hypothesis, answered), hypothesis));
+    let best = scored.filter(|((share, _), _)| *share >= EXPLAINED);
+    let best = best.reduce(|best, next| if next.0.0 > best.0.0 { next } else { best });
+    best.map(|((share, number), hypothesis)| {
+        (format!("right if {}: {number} of {all}", hypothesis.words), share == 1.0)
+    })
+}
+
+/// An error that is merely larger than allowed.
+fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
+    let errors: Vec<[f64; 2]> = answered.iter().map(|one| one.errors()).collect::<Option<_>>()?;
+    let most = |at: usize| errors.iter().map(|of| of[at]).fold(0.0, f64::max);
+    let (times, largest) = (most(0), most(1));
+    let is_rough = largest <= ROUGH && times > 1.0;
+    let number = answered.len();
+    is_rough.then(|| {
+        (format!("right if {times:.1e} times the error is allowed, as of a tolerance looser than asked: {number} of {all}"), true)
+    })
+}
+
+/// A number of a question by which right and wrong answers may be told apart.
+struct Feature(&'static str, fn(&Toss, &Numbers) -> f64);
+
+const FEATURES: [Feature; 14] = [
+    Feature("k = i3/i1", |_, of| of.k),
+    Feature("the phase (rad)", |toss, _| Phases::new(toss).map_or(f64::INFINITY, |phases| phases.largest)),
+    Feature("the tilt at launch (rad)", |_, of| {
+        let [w, x, y, z] = of.attitude;
+        2.0 * x.hypot(y).atan2(w.hypot(z))
+    }),
+    Feature("the time", |_, of| of.time),
+    Feature("the largest component of the rate", |_, of| nalgebra::Vector3::from(of.rate).amax()),
+    Feature("i1", |_, of| of.i1),
+    Feature("w", |_, of| of.attitude[0]),
+    Feature("x", |_, of| of.attitude[1]),
+    Feature("y", |_, of| of.attitude[2]),
+    Feature("z", |_, of| of.attitude[3]),
+    Feature("y² + z²", |_, of| of.attitude[2].powi(2) + of.attitude[3].powi(2)),
+    Feature("rate_x", |_, of| of.rate[0]),
+    Feature("rate_y", |_, of| of.rate[1]),
+    Feature("rate_z", |_, of| of.rate[2]),
+];
+
+/// The fewest right answers on the one side of a bound, more than there are without a time of flight, the fewest on the other, and the part of the wrong ones on that which it rules out.
+const SIDES: [usize; 2] = [50, 5];
+const RULED_OUT: f64 = 0.75;
+
+/// A bound of one number of the question on whose one side all answers are right, and on the other nearly all are wrong.
+fn split(asked: &[Asked]) -> Option<Cause> {
+    let mut best: Option<(f64, String)> = None;
+    for Feature(name, number) in &FEATURES {
+        for sign in [1.0, -1.0] {
+            let of = |one: &Asked| Some((sign * number(&one.toss, &Numbers::of(&one.toss)?), one.is_right()));
+            let mut sorted: Vec<(f64, bool)> = asked.iter().filter_map(of).collect();
+            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let Some(first) = sorted.iter().find(|(_, right)| !right).map(|(value, _)| *value) else { continue };
+            let below = sorted.partition_point(|(value, _)| *value < first);
+            let (inside, outside) = (below, sorted.len() - below);
+            let right = sorted[below..].iter().filter(|(_, right)| *right).count();
+            let ruled_out = 1.0 - right as f64 / outside as f64;
+            // Where only a part of the right answers is on the one side, the bound is no cause.
+            if inside < SIDES[0].max(4 * right) || outside < SIDES[1] || ruled_out < RULED_OUT {
+                continue;
+            }
+            let last = sorted[below - 1].0;
+            let bound = roundest(last, first);
+            let relation = match (sign > 0.0, bound == last) {
+                _ if sorted[0].0 == last => "=",
+                (true, true) => "≤",
+                (true, false) => "<",
+                (false, true) => "≥",
+                (false, false) => ">",
+            };
+            let words = format!(
+                "right only where {name} {relation} {}: {inside} of {inside}, elsewhere {right} of {outside}",
+                short(sign * bound)
+            );
+            if best.as_ref().is_none_or(|(known, _)| ruled_out > *known) {
+                best = Some((ruled_out, words));
+            }
+        }
+    }
+    best.map(|(_, words)| (words, false))
+}
+
+/// The number from `low` to `high` with the fewest digits.
+fn roundest(low: f64, high: f64) -> f64 {
+    let between = |value: &f64| (low..=high).contains(value);
+    let rounded =
+        |digits: usize| [low, high].into_iter().filter_map(move |value| format!("{value:.digits$e}").parse().ok());
+    std::iter::once(0.0).chain((0..17).flat_map(rounded)).find(between).unwrap_or(high)
+}
+
+/// A number in few characters, without a sign of zero.
+fn short(value: f64) -> String {
+    let value = value + 0.0;
+    if value == 0.0 || (1e-3..1e4).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+#[cfg(test)]
+mod tests;

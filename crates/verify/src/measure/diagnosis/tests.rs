@@ -1,0 +1,208 @@
+//! Wrong solvers, each with a mistake of its own, and what each is told. They are closed forms and integrators in this file
+//! alone, so that a mistake is written as an author makes it and not as the table of hypotheses undoes it.
+
+use std::f64::consts::PI;
+
+use super::*;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+type Q = Quaternion<f64>;
+
+/// What an author's program reads.
+#[derive(Clone, Copy)]
+struct Row {
+    i1: f64,
+    i3: f64,
+    rate: Vector3<f64>,
+    launched: Q,
+    time: f64,
+    tolerance: f64,
+}
+
+fn turn(by: Vector3<f64>) -> Q {
+    UnitQuaternion::from_scaled_axis(by).into_inner()
+}
+
+fn momentum(row: &Row) -> Vector3<f64> {
+    let k = row.i3 / row.i1;
+    Vector3::new(row.rate.x, row.rate.y, k * row.rate.z) * row.time
+}
+
+fn spin(row: &Row) -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, (1.0 - row.i3 / row.i1) * row.rate.z * row.time)
+}
+
+fn right(row: &Row) -> Q {
+    row.launched * turn(momentum(row)) * turn(spin(row))
+}
+
+fn components(q: Q) -> [f64; 4] {
+    [q.w, q.i, q.j, q.k]
+}
+
+/// Q' = ½ `product`(Q, ω) and Euler's equations with their sign times `euler`, by Runge-Kutta steps of the fourth order.
+fn integrated(row: &Row, product: fn(Q, Q) -> Q, euler: f64) -> Q {
+    let k = row.i3 / row.i1;
+    let slope = |(q, rate): (Q, Vector3<f64>)| {
+        let torque = Vector3::new((1.0 - k) * rate.y * rate.z, (k - 1.0) * rate.x * rate.z, 0.0);
+        (product(q, Q::from_imag(rate)) * 0.5, torque * euler)
+    };
+    let angle = row.rate.norm() * row.time;
+    if angle > 1e3 {
+        // It declines.
+        return Q::from_real(f64::NAN);
+    }
+    let steps = (25.0 * angle).ceil().max(1.0);
+    let h = row.time / steps;
+    let mut y = (row.launched, row.rate);
+    let along = |y: (Q, Vector3<f64>), by: (Q, Vector3<f64>), h: f64| (y.0 + by.0 * h, y.1 + by.1 * h);
+    for _ in 0..steps as u64 {
+        let a = slope(y);
+        let b = slope(along(y, a, h / 2.0));
+        let c = slope(along(y, b, h / 2.0));
+        let d = slope(along(y, c, h));
+        y = along(y, (a.0 + (b.0 + c.0) * 2.0 + d.0, a.1 + (b.1 + c.1) * 2.0 + d.1), h / 6.0);
+    }
+    y.0
+}
+
+/// What is found of a program that answers so, at errors allowed as by the tolerance.
+fn told(answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosis> {
+    let asked = |toss: &Toss| {
+        let coin = toss.coin()?;
+        let [w, x, y, z] = coin.launch.attitude().components();
+        let row = Row {
+            i1: coin.coin.i1(),
+            i3: coin.coin.i3(),
+            rate: coin.launch.rate(),
+            launched: Q::new(w, x, y, z),
+            time: coin.launch.flight_time(),
+            tolerance: any_launch::TOLERANCE,
+        };
+        let phase = Phases::new(toss).ok()?.largest;
+        Some(Asked {
+            toss: *toss,
+            question: case::text(toss),
+            line: None,
+            answer: Some(answer(&row)).filter(|answer| !answer[0].is_nan()).ok_or_else(|| "declined".to_owned()),
+            allowed: Allowance::by_estimate(100.0 * row.tolerance * (1.0 + phase)),
+            exact: Reference::of(toss).ok()?,
+        })
+    };
+    diagnosis("mine", launches().unwrap().iter().filter_map(asked).collect())
+}
+
+#[test]
+fn each_mistake_is_found_and_named() {
+    type Mistake = (&'static str, fn(&Row) -> [f64; 4]);
+    let mistakes: [Mistake; 25] = [
+        ("its quaternion is conjugated", |row| components(right(row).conjugate())),
+        ("its quaternion is read as x,y,z,w: 1000 of 1000", |row| {
+            let [w, x, y, z] = components(right(row));
+            [x, y, z, w]
+        }),
+        ("quaternions are given to it and read as x,y,z,w", |row| {
+            let [x, y, z, w] = components(row.launched);
+            let [w, x, y, z] = components(right(&Row { launched: Q::new(w, x, y, z), ..*row }));
+            [x, y, z, w]
+        }),
+        ("the rate is given to it in LF instead of BF", |row| {
+            let rate = UnitQuaternion::new_normalize(row.launched).inverse() * row.rate;
+            components(right(&Row { rate, ..*row }))
+        }),
+        ("it multiplies its turn and the attitude at launch in the wrong order", |row| {
+            components(turn(momentum(row)) * turn(spin(row)) * row.launched)
+        }),
+        ("its Q' = ½ ω Q is written Q' = ½ Q ω", |row| components(integrated(row, |q, rate| rate * q, 1.0))),
+        ("its Q' = Q ω is halved", |row| components(integrated(row, |q, rate| q * rate * 2.0, 1.0))),
+        ("Euler's equations have the opposite sign", |row| components(integrated(row, |q, rate| q * rate, -1.0))),
+        ("it answers the turn since launch", |row| components(right(&Row { launched: Q::identity(), ..*row }))),
+        ("its spin about n is reversed", |row| components(row.launched * turn(momentum(row)) * turn(-spin(row)))),
+        ("its precession about the angular momentum is reversed", |row| {
+            components(row.launched * turn(-momentum(row)) * turn(spin(row)))
+        }),
+        ("its rate, or its time, is reversed", |row| components(right(&Row { time: -row.time, ..*row }))),
+        ("a spin about n is added", |row| components(row.launched * turn(momentum(row)))),
+        ("in degrees per unit of time", |row| components(right(&Row { rate: row.rate * PI / 180.0, ..*row }))),
+        ("all its angles are halved", |row| components(right(&Row { time: 2.0 * row.time, ..*row }))),
+        ("all its angles are doubled", |row| components(right(&Row { time: 0.5 * row.time, ..*row }))),
+        ("the rate is divided by its length", |row| components(right(&Row { rate: row.rate.normalize(), ..*row }))),
+        ("i1 and i3 are exchanged", |row| components(right(&Row { i1: row.i3, i3: row.i1, ..*row }))),
+        ("i1 is 1", |row| components(right(&Row { i1: 1.0, ..*row }))),
+        ("it ignores the moments", |row| components(row.launched * turn(row.rate * row.time))),
+        ("its quaternion is divided by its norm", |row| components(right(row) * 3.0)),
+        ("times the error is allowed, as of a tolerance looser than asked", |row| {
+            components(right(&Row { time: row.time * (1.0 + 1e-6), ..*row }))
+        }),
+        ("right only where k = i3/i1 < 1", |row| {
+            let wrong = Row { rate: row.rate * 1.5, ..*row };
+            components(right(if row.i3 < row.i1 { row } else { &wrong }))
+        }),
+        ("right only where the tilt at launch (rad) = 0: ", |row| {
+            let is_level = row.launched.i.hypot(row.launched.j) < 1e-9;
+            components(if is_level { right(row) } else { right(row) * turn(Vector3::new(1.0, 0.3, 0.0)) })
+        }),
+        ("right only where the phase (rad) < 20: ", |row| {
+            let off = if momentum(row).norm().max(spin(row).norm()) > 20.0 { 0.1 } else { 0.0 };
+            components(right(row) * turn(Vector3::new(off, 0.0, 0.0)))
+        }),
+    ];
+    for (cause, answer) in mistakes {
+        let found = told(answer).unwrap_or_else(|| panic!("{cause}: nothing is found"));
+        assert!(found.cause.contains(cause), "{cause}: {found:#?}");
+        assert!(found.right < found.launches && found.launches >= 950, "{cause}: {found:?}");
+    }
+}
+
+#[test]
+fn a_rare_mistake_is_told_by_the_launches_without_it() {
+    type Mistake = (&'static str, fn(&Row) -> bool);
+    let mistakes: [Mistake; 3] = [
+        ("right only where k = i3/i1 > 0", |row| row.i3 == 0.0),
+        ("right only where the phase (rad) < 1000", |row| momentum(row).norm().max(spin(row).norm()) > 1e3),
+        ("right only where w ≥ 0: ", |row| row.launched.w < 0.0),
+    ];
+    for (cause, is_wrong) in mistakes {
+        let off = |row: &Row| if is_wrong(row) { Vector3::new(0.1, 0.2, 0.3) } else { Vector3::zeros() };
+        let found = told(|row| components(right(row) * turn(off(row)))).unwrap();
+        assert!(found.cause.contains(cause), "{found:#?}");
+    }
+    // A mistake that no number of the question tells from the others is shown by the smallest question.
+    let is_wrong = |row: &Row| row.rate.x > 0.0 && row.launched.i > 0.1;
+    let off = |row: &Row| if is_wrong(row) { Vector3::new(0.1, 0.2, 0.3) } else { Vector3::zeros() };
+    let found = told(|row| components(right(row) * turn(off(row)))).unwrap();
+    assert!(found.cause.contains("for a reason that none of the"), "{found:#?}");
+    assert!(found.example.question.starts_with("moments=1.0,0.5 rate=1.0,0.0,0.0 "), "{found:#?}");
+    assert!(found.example.expected.contains("cos θ = "), "{found:#?}");
+}
+
+#[test]
+fn a_right_solver_has_no_diagnosis() {
+    assert_eq!(told(|row| components(right(row))), None);
+    assert_eq!(told(|row| components(-right(row))), None);
+    assert_eq!(told(|row| components(integrated(row, |q, rate| q * rate, 1.0))), None);
+}
+
+#[test]
+fn a_solver_without_answers_is_told_why() {
+    let launches = launches().unwrap();
+    let asked = |(index, toss): (usize, &Toss)| Asked {
+        toss: *toss,
+        question: String::new(),
+        line: None,
+        answer: Err(if index == 0 { "ended".to_owned() } else { "is no longer asked: it ended".to_owned() }),
+        allowed: Allowance::by_estimate(1e-9),
+        exact: Reference::of(toss).unwrap(),
+    };
+    let found = diagnosis("mine", launches.iter().enumerate().map(asked).collect()).unwrap();
+    assert!(found.cause.starts_with("no answer to ") && found.cause.ends_with(" of 1000 launches: ended"), "{found:?}");
+}
+
+#[test]
+fn a_bound_is_the_roundest_number_between() {
+    for (low, high, expected) in
+        [(0.97, 1.03, 1.0), (-0.2, 0.3, 0.0), (812.0, 1301.0, 1e3), (0.1234, 0.1249, 0.1234), (2.0, 2.2, 2.0)]
+    {
+        assert_eq!(roundest(low, high), expected);
+    }
+}

@@ -1,0 +1,70 @@
+//! What solvers with failing rows most likely do wrong, in words: the first lines of a report.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::Report;
+use crate::judge::Row;
+use crate::measure::diagnosis::{Diagnosis, Example};
+use crate::process::Tally;
+
+/// A sentence for each solver, with the smallest failing question where no cause explains all of them, and how a program
+/// was asked if not all of its launches have an answer.
+pub(crate) fn paragraph(report: &Report) -> String {
+    let lines = report.diagnoses.iter().map(of_one).collect::<String>();
+    let tally = report.program.filter(|tally| tally.without_answer > 0).map(tally).unwrap_or_default();
+    lines + &tally
+}
+
+fn of_one(found: &Diagnosis) -> String {
+    let Diagnosis { subject, cause, explains_all, .. } = found;
+    let sentence = format!("{subject}: {}.\n", printable(cause));
+    if *explains_all {
+        sentence
+    } else {
+        format!("{sentence}The smallest question that fails:\n{}", example(&found.example))
+    }
+}
+
+/// The lines of a question and its answer, with what was expected.
+pub(crate) fn example(example: &Example) -> String {
+    let Example { question, answer, expected } = example;
+    let question: String = question.lines().map(|line| format!("  {line}\n")).collect();
+    format!("{question}  answer:   {}\n  expected: {expected}\n", printable(answer))
+}
+
+fn tally(Tally { starts, questions, without_answer }: Tally) -> String {
+    let times = if starts == 1 { "once".to_owned() } else { format!("{starts} times") };
+    format!("The program was started {times}; {without_answer} of {questions} launches are without an answer.\n")
+}
+
+/// The failing rows of which a report says all, and in one line the checks of those that fail for the same reason: those of
+/// a solver whose likeliest cause explains all, and those with the same words of failure.
+pub(crate) fn folded<'a>(report: &Report, failing: Vec<&'a Row>) -> (Vec<&'a Row>, String) {
+    let (mut shown, mut same) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
+    let explained = |row: &Row| report.diagnoses.iter().any(|found| found.explains_all && found.subject == row.subject);
+    for row in failing {
+        let key = if explained(row) { Some(row.subject.clone()) } else { row.failure.clone() };
+        match key {
+            None => shown.push(row),
+            Some(key) => {
+                let of_key = same.entry(key).or_default();
+                if of_key.is_empty() {
+                    shown.push(row);
+                }
+                of_key.push(&row.check);
+            }
+        }
+    }
+    let mut text = String::new();
+    for checks in same.into_values().filter(|checks| checks.len() > 1) {
+        let _ = writeln!(text, "\nFor the same reason as {}: {}", checks[0], checks[1..].join(", "));
+    }
+    (shown, text)
+}
+
+/// The text without control characters, so that a program's words neither move the cursor nor begin a line.
+fn printable(text: &str) -> String {
+    let shown = |part: char| if part.is_control() { part.escape_default().to_string() } else { part.to_string() };
+    text.chars().map(shown).collect()
+}
