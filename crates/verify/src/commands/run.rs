@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use clap::{Args, ValueEnum};
-use dynamics::{Flight, Toss};
+use dynamics::Toss;
 use indicatif::{ProgressBar, ProgressStyle};
 use toss::{Formulation, StepControl, Stepping};
 

@@ -8,7 +8,6 @@ use serde::Serialize;
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
     /// A fifth of the launches of `--quick`, for tests that every check does its work. It has no baseline.
-    #[doc(hidden)]
     Sample,
     /// `--quick`: takes a minute on two cores.
     Quick,
