@@ -73,7 +73,8 @@ const PARTS: [Part; 11] = [
 ];
 
 /// What nothing but `tests`, `lints` and `suite` reads; folders with a slash at the end.
-const DOCUMENTS: [&str; 13] = [
+const DOCUMENTS: [&str; 15] = [
+    ".cargo/mutants.toml",
     ".ci/passed",
     ".dockerignore",
     ".github/",
@@ -86,6 +87,7 @@ const DOCUMENTS: [&str; 13] = [
     "Dockerfile",
     "README.md",
     "docs/",
+    "templates/",
     "validation/",
 ];
 
