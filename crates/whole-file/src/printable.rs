@@ -17,11 +17,15 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |letter| is_hidden(letter) && !matches!(letter, '\n' | '\t'))
 }
 
-/// Whether a character does something to a terminal, an editor or a reader of XML instead of being seen.
+/// Whether a character is a control, ends a line, turns the direction of writing, has no width, or is none at all (the
+/// noncharacters of Unicode, of which XML refuses two).
 pub fn is_hidden(letter: char) -> bool {
-    letter.is_control()
-        || matches!(letter, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-        || matches!(letter, '\u{feff}' | '\u{fffe}' | '\u{ffff}')
+    let is_none = u32::from(letter) & 0xfffe == 0xfffe;
+    is_none
+        || letter.is_control()
+        || matches!(letter, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}')
+        || matches!(letter, '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}')
+        || matches!(letter, '\u{fdd0}'..='\u{fdef}' | '\u{e0000}'..='\u{e007f}')
 }
 
 fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
@@ -45,5 +49,12 @@ mod tests {
         let hidden = "\u{7}\r\t\0\u{9b}\u{202e}\u{2028}\u{fffe}";
         assert_eq!(printable(hidden), r"\u{7}\r\t\u{0}\u{9b}\u{202e}\u{2028}\u{fffe}");
         assert_eq!(printable_lines("a\n\tb\u{7}"), "a\n\tb\\u{7}");
+        let none = "\u{fffe}\u{ffff}\u{1fffe}\u{10ffff}\u{fdd0}\u{2066}\u{200f}\u{feff}";
+        assert_eq!(printable(none), r"\u{fffe}\u{ffff}\u{1fffe}\u{10ffff}\u{fdd0}\u{2066}\u{200f}\u{feff}");
+        for text in ["e\u{301}, עברית, नि, 👩\u{200d}💻, \u{fffd}", hidden, none] {
+            let once = printable(text).into_owned();
+            assert_eq!(printable(&once), once);
+            assert!(!once.contains(is_hidden));
+        }
     }
 }

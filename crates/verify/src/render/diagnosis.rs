@@ -18,7 +18,7 @@ pub(crate) fn paragraph(report: &Report) -> String {
 
 fn of_one(found: &Diagnosis) -> String {
     let Diagnosis { subject, cause, explains_all, .. } = found;
-    let sentence = format!("{subject}: {}.\n", printable(cause));
+    let sentence = format!("{subject}: {cause}.\n");
     if *explains_all {
         sentence
     } else {
@@ -30,7 +30,7 @@ fn of_one(found: &Diagnosis) -> String {
 pub(crate) fn example(example: &Example) -> String {
     let Example { question, answer, expected } = example;
     let question: String = question.lines().map(|line| format!("  {line}\n")).collect();
-    format!("{question}  answer:   {}\n  expected: {expected}\n", printable(answer))
+    format!("{question}  answer:   {answer}\n  expected: {expected}\n")
 }
 
 fn tally(Tally { starts, questions, without_answer }: Tally) -> String {
@@ -41,16 +41,16 @@ fn tally(Tally { starts, questions, without_answer }: Tally) -> String {
 /// The failing rows of which a report says all, and in one line the checks of those that fail for the same reason: those of
 /// a solver whose likeliest cause explains all, and those with the same words of failure.
 pub(crate) fn folded<'a>(report: &Report, failing: Vec<&'a Row>) -> (Vec<&'a Row>, String) {
-    let (mut shown, mut same) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
+    let (mut kept, mut same) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
     let explained = |row: &Row| report.diagnoses.iter().any(|found| found.explains_all && found.subject == row.subject);
     for row in failing {
         let key = if explained(row) { Some(row.subject.clone()) } else { row.failure.clone() };
         match key {
-            None => shown.push(row),
+            None => kept.push(row),
             Some(key) => {
                 let of_key = same.entry(key).or_default();
                 if of_key.is_empty() {
-                    shown.push(row);
+                    kept.push(row);
                 }
                 of_key.push(&row.check);
             }
@@ -60,11 +60,5 @@ pub(crate) fn folded<'a>(report: &Report, failing: Vec<&'a Row>) -> (Vec<&'a Row
     for checks in same.into_values().filter(|checks| checks.len() > 1) {
         let _ = writeln!(text, "\nFor the same reason as {}: {}", checks[0], checks[1..].join(", "));
     }
-    (shown, text)
-}
-
-/// The text without control characters, so that a program's words neither move the cursor nor begin a line.
-fn printable(text: &str) -> String {
-    let shown = |part: char| if part.is_control() { part.escape_default().to_string() } else { part.to_string() };
-    text.chars().map(shown).collect()
+    (kept, text)
 }

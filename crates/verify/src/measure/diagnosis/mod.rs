@@ -17,6 +17,7 @@ use super::case;
 use super::reference::Reference;
 use super::run::Allowance;
 use super::subject::by_scheme;
+use crate::shown::shown;
 
 /// The number of launches that a diagnosis asks for.
 const LAUNCHES: u64 = 1000;
@@ -145,7 +146,7 @@ impl Asked {
         let why = self.answer.as_ref().err().cloned().unwrap_or_default();
         Example {
             question: self.question.clone(),
-            answer: self.line.clone().unwrap_or_else(|| format!("none: {why}")),
+            answer: shown(&self.line.clone().unwrap_or_else(|| format!("none: {why}"))),
             expected: format!("{w:?},{x:?},{y:?},{z:?} (or its negative), cos θ = {cos_tilt:?}"),
         }
     }
@@ -200,7 +201,7 @@ pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
     let (cause, explains_all) = cause.unwrap_or_else(unexplained);
     Some(Diagnosis {
         subject: subject.to_owned(),
-        cause,
+        cause: shown(&cause),
         explains_all,
         launches: asked.len() as u64,
         right: right.len() as u64,
