@@ -1,4 +1,4 @@
-//! What a wrong solver most likely does, told from its answers to [launches of every kind](super::any_launch): a known
+//! What a wrong solver most likely does, told from its answers to launches of every kind: a known
 //! mistake that explains them, an error that is merely larger than allowed, or the launches on which alone it is right. If
 //! none of these holds, the smallest question that fails is shown. The judge of all of it is the reference.
 
