@@ -38,7 +38,7 @@ CALLS = {
     "a landing by many steps": "again(lambda: ut.toss(ut.Toss((1, 1, 2), time=1.0), ut.Solver('quaternion', step=1e-6)))",
     "a landing of a body": "again(lambda: ut.toss(TUMBLING))",
     "margins of a body": "again(lambda: ut.margins(ut.Toss((0.3, 5.0, 0.1), speed=3, body=BOOK)))",
-    "intervals of a body": "again(lambda: ut.intervals(ut.Toss((0.3, 5.0, 0.1), speed=100, body=BOOK)))",
+    "intervals of a body": "again(lambda: ut.intervals(ut.Toss((0.3, 5.0, 0.1), speed=30, body=BOOK)))",
     "a trace of a body": "again(lambda: ut.trace(TUMBLING, 1_000_000))",
     "a trace by an integrator": "ut.trace(ut.Toss((1, 1, 2), time=10.0), 1_000_000, solver=ut.Solver('euler', step=1e-7))",
     "a solution": "ut.solve(ut.Toss((1, 1, 2), time=10.0), 'gamma', step=1e-7, t_eval=np.linspace(0, 10, 1_000_000))",
