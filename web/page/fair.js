@@ -22,8 +22,9 @@ export function probability(psi, momentumTilt = psi) {
   return 0.5 + Math.asin(Math.min(1, Math.max(-1, product))) / Math.PI;
 }
 
-/** Turns of n about S. */
-const turnsOf = ({ motion, flight_time }) => (motion.precession_rate * flight_time) / (2 * Math.PI);
+/** Turns of n about S, or of a body with I1 ≠ I2 as many as it has at the rate of the launch. */
+const turnsOf = ({ motion, input, flight_time }) =>
+  ((motion?.precession_rate ?? Math.hypot(...input.rate)) * flight_time) / (2 * Math.PI);
 
 /** What the curve says of this toss. */
 function words(toss) {
@@ -98,7 +99,7 @@ export class Fair {
     this.motion = motion;
     this.handle.hidden = !motion;
     byId("fair-words").textContent = motion ? words(toss) : "The curve is for bodies with I1 = I2: the normal of others moves on no cone.";
-    this.strip(motion ? turnsOf(toss) : 10);
+    this.strip(turnsOf(toss));
     if (!motion) return;
     const [psi, part] = [folded(motion.cone_angle), probability(motion.cone_angle, motion.momentum_tilt)];
     this.dot.setAttribute("cx", across(psi));

@@ -403,6 +403,9 @@ test("the curve has the launch on it, and moving the point throws another one", 
   assert.ok(await page.locator("#fair-strip").isHidden());
   await page.click("[data-preset=racket]");
   assert.ok(await curve.isHidden());
+  assert.ok(await page.locator("#fair-strip").isVisible());
+  await page.fill("#rate-x", "500");
+  assert.ok(await page.locator("#fair-strip").isHidden());
   await close(page);
 });
 

@@ -26,9 +26,9 @@ impl Formatter for Plain {
             let hidden = part.chars().next_back().filter(|letter| is_hidden(*letter));
             let seen = &part[..part.len() - hidden.map_or(0, char::len_utf8)];
             to.write_all(seen.as_bytes())?;
-            if let Some(letter) = hidden {
-                // All of them have one unit of UTF-16.
-                write!(to, "\\u{:04x}", u32::from(letter))?;
+            // Beyond 16 bits a letter has two units.
+            for unit in hidden.map(String::from).unwrap_or_default().encode_utf16() {
+                write!(to, "\\u{unit:04x}")?;
             }
         }
         Ok(())
@@ -42,4 +42,17 @@ impl Formatter for Plain {
 /// -0 as 0; any other number as it is.
 pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
     value + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_letter_of_a_text_is_hidden_and_each_is_read_back() {
+        let text = "a\u{7f}\u{202e}\u{feff}\u{1fffe}\u{e0041}é👩";
+        let json = plain_json(&text);
+        assert!(!json.contains(is_hidden), "{json}");
+        assert_eq!(serde_json::from_str::<String>(&json).unwrap(), text);
+    }
 }

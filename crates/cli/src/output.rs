@@ -280,13 +280,6 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
 }
 
-/// Formats rows of numbers as CSV below a heading.
-pub(crate) fn csv_of_numbers(heading: &str, rows: impl Iterator<Item = Vec<f64>>) -> String {
-    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(format!("{heading}\n").into_bytes());
-    rows.for_each(|row| writer.serialize(row).expect("numbers always fit into memory"));
-    String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("numbers are UTF-8")
-}
-
 /// A progress bar for `number` `things` on standard error, with the rate and the time left. It is hidden if standard
 /// error is not a terminal.
 pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {

@@ -12,8 +12,8 @@ use anyhow::Context;
 /// # Errors
 /// If the file can't be read.
 pub fn read(path: &Path) -> anyhow::Result<String> {
-    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+    let failed = || format!("cannot read {}", path.display());
+    whole_file::text(std::fs::read(path).with_context(failed)?).with_context(failed)
 }
 
 /// As [`read`]; `None` if nothing has this path. A link to nothing is something, whose text can't be read.

@@ -4,7 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use anyhow::{bail, ensure};
+use anyhow::{anyhow, bail, ensure};
+use whole_file::TableError;
 
 use crate::shown::shown;
 
@@ -59,24 +60,20 @@ impl<const K: usize, const N: usize> Table<K, N> {
     /// If a column is missing, unknown or there twice, a row has too few or too many cells, no name, the name of another
     /// row or a number that is none of its column, or there is no row. The error begins with the line, as an editor counts.
     pub(crate) fn read(&self, text: &str) -> anyhow::Result<Rows<K, N>> {
-        let mut reader = csv::ReaderBuilder::new();
-        let mut reader = reader.has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
-        let (mut places, mut rows, mut lines) = (None, Rows::new(), BTreeMap::new());
-        for record in reader.records() {
-            let record = record?;
-            let (line, cells) = (line_at(text, record.position()), record.iter().map(shown).collect::<Vec<_>>());
-            if cells.len() == 1 && cells[0].is_empty() {
-                continue;
+        let mut table = whole_file::Table::new(text.as_bytes()).map_err(in_line)?;
+        let (mut rows, mut lines) = (Rows::new(), BTreeMap::new());
+        if !table.heading().is_blank() {
+            let heading = (table.heading().line(), cells(table.heading()));
+            let places = self.places(&heading.1).map_err(|error| error.context(format!("line {}", heading.0)))?;
+            while let Some(row) = table.row().map_err(in_line)? {
+                let line = row.line();
+                let (name, numbers) =
+                    self.row(&cells(row), &places).map_err(|error| error.context(format!("line {line}")))?;
+                if let Some(first) = lines.insert(name.clone(), line) {
+                    bail!("line {line}: {} is there twice, first in line {first}", name.join(", "));
+                }
+                rows.insert(name, numbers);
             }
-            let Some(places) = &places else {
-                places = Some(self.places(&cells).map_err(|error| error.context(format!("line {line}")))?);
-                continue;
-            };
-            let (name, numbers) = self.row(&cells, places).map_err(|error| error.context(format!("line {line}")))?;
-            if let Some(first) = lines.insert(name.clone(), line) {
-                bail!("line {line}: {} is there twice, first in line {first}", name.join(", "));
-            }
-            rows.insert(name, numbers);
         }
         let columns = || self.columns().collect::<Vec<_>>().join(",");
         ensure!(!rows.is_empty(), "there is no row; expected rows below the heading {}", columns());
@@ -91,13 +88,11 @@ impl<const K: usize, const N: usize> Table<K, N> {
             ensure!(!heading[..place].contains(name), "the column {name} is there twice");
         }
         let place = |column| heading.iter().position(|name| name == column);
-        let missing = |column| anyhow::anyhow!("the column {column} is missing; expected {}", columns());
+        let missing = |column| anyhow!("the column {column} is missing; expected {}", columns());
         self.columns().map(|column| place(column).ok_or_else(|| missing(column))).collect()
     }
 
     fn row(&self, cells: &[String], places: &[usize]) -> anyhow::Result<([String; K], [Option<f64>; N])> {
-        let (found, wanted) = (cells.len(), places.len());
-        ensure!(found == wanted, "{found} cells, but the heading has {wanted}");
         let (mut name, mut numbers) = ([const { String::new() }; K], [None; N]);
         for ((column, place), part) in self.name.iter().zip(places).zip(&mut name) {
             part.clone_from(&cells[*place]);
@@ -133,19 +128,13 @@ impl<const K: usize, const N: usize> Table<K, N> {
     }
 }
 
-/// The number of the line in which a row begins. A position is where the row before ends, so that the ends of empty lines
-/// may follow.
-fn line_at(text: &str, position: Option<&csv::Position>) -> usize {
-    let byte = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0).min(text.len());
-    let blank = text.as_bytes()[byte..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
-    line_of(text, byte + blank)
+/// What is wrong with a table as a text, with its line.
+fn in_line(TableError { line, message, .. }: TableError) -> anyhow::Error {
+    anyhow!("line {line}: {message}")
 }
 
-/// The number of the line of a byte, as an editor counts: a line ends with a line feed, a carriage return or both.
-pub(crate) fn line_of(text: &str, byte: usize) -> usize {
-    let before = &text.as_bytes()[..byte.min(text.len())];
-    let is_end = |at: &usize| before[*at] == b'\n' || before[*at] == b'\r' && before.get(at + 1) != Some(&b'\n');
-    1 + (0..before.len()).filter(is_end).count()
+fn cells(row: &whole_file::Row) -> Vec<String> {
+    row.cells().map(shown).collect()
 }
 
 #[cfg(test)]

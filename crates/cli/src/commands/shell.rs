@@ -132,7 +132,7 @@ fn page(command: Command, to: &mut Vec<u8>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// `text` in the language of manual pages, in which a hyphen is no minus sign, and a line may not begin with a dot.
+/// `text` in the language of manual pages, in which a backslash, a hyphen and an apostrophe stand for other signs.
 fn escaped(text: &str) -> String {
     text.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq")
 }

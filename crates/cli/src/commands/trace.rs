@@ -108,26 +108,41 @@ fn print_csv(
     points: impl Iterator<Item = Result<Point, Error>>,
     out: &mut (dyn Write + Send),
 ) -> Result<String, Failure> {
-    let mut out = std::io::BufWriter::new(out);
-    let mut print = |text: String| match out.write_all(text.as_bytes()) {
-        Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => Ok(false),
-        written => written.map(|()| true).map_err(Failure::Print),
-    };
-    let mut error = None;
-    for (index, point) in points.enumerate() {
-        match point {
-            Ok(point) => {
-                let text = csv(std::slice::from_ref(&point));
-                let row = if index == 0 { text } else { text.split_inclusive('\n').skip(1).collect() };
-                if !print(row)? {
-                    break;
-                }
-            }
-            Err(failed) => error = Some(failed),
-        }
+    match write_csv(points.map(|point| point.map(|point| point.numbers())), out) {
+        Ok(None) => Ok(String::new()),
+        Ok(Some(error)) => Err(error.into()),
+        Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => Ok(String::new()),
+        Err(error) => Err(Failure::Print(error)),
     }
-    whole_file::unless_closed(out.flush()).map_err(Failure::Print)?;
-    error.map_or(Ok(String::new()), |error| Err(error.into()))
+}
+
+/// Writes rows of numbers below their heading, up to the first that could not be computed, whose error is returned.
+fn write_csv(rows: impl Iterator<Item = Result<Vec<f64>, Error>>, out: impl Write) -> std::io::Result<Option<Error>> {
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+    let mut failed = None;
+    for (index, row) in rows.enumerate() {
+        let row = match row {
+            Ok(row) => row,
+            Err(error) => {
+                failed = Some(error);
+                break;
+            }
+        };
+        if index == 0 {
+            writer.write_record(COLUMNS.split(',').take(row.len())).map_err(of_output)?;
+        }
+        writer.serialize(row).map_err(of_output)?;
+    }
+    writer.flush()?;
+    Ok(failed)
+}
+
+/// The error of the output, which alone can fail: numbers are always CSV.
+fn of_output(error: csv::Error) -> std::io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => std::io::Error::other(format!("{other:?}")),
+    }
 }
 
 impl Point {
@@ -142,7 +157,7 @@ impl Point {
 const COLUMNS: &str = "time,w,x,y,z,alpha,beta,gamma,normal_x,normal_y,normal_z,face_x,face_y,face_z,cos_tilt,error_bound,attitude_error_bound";
 
 fn csv(points: &[Point]) -> String {
-    let width = points[0].numbers().len();
-    let heading = COLUMNS.split(',').take(width).collect::<Vec<_>>().join(",");
-    output::csv_of_numbers(&heading, points.iter().map(Point::numbers))
+    let mut text = Vec::new();
+    write_csv(points.iter().map(|point| Ok(point.numbers())), &mut text).expect("memory takes every byte");
+    String::from_utf8(text).expect("numbers are UTF-8")
 }

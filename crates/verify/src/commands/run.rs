@@ -25,8 +25,8 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 ///
 /// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
 ///
-/// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss is wrong or without an answer; 2 bad usage; 3 accuracy or work is worse than the
-/// baseline, though within limits; 4 could not run.
+/// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss is wrong or without an answer; 2 bad usage; 3
+/// accuracy or work is worse than the baseline, though within limits; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct RunArgs {
     /// Take fewer cases: within a minute on two cores, once built

@@ -14,7 +14,6 @@ use serde::Deserialize;
 use super::row::{Row, Status};
 use crate::files;
 use crate::measure::checks::CHECKS;
-use crate::table::line_of;
 
 /// Allowed deviations by check and subject, with the reason for each check's limits.
 #[derive(Debug, Clone, Deserialize)]
@@ -80,8 +79,10 @@ impl Limits {
     /// As [`Limits::read`].
     pub fn parse(text: &str) -> anyhow::Result<Self> {
         let limits: Self = toml::from_str(text).map_err(|error| {
-            let place = error.span().map(|span| format!("line {}: ", line_of(text, span.start))).unwrap_or_default();
-            anyhow!("{place}{}", error.message())
+            match dynamics::Error::in_text(text, error.span().map(|span| span.start), error.message().to_owned()) {
+                dynamics::Error::Text { line, message, .. } => anyhow!("line {line}: {message}"),
+                other => other.into(),
+            }
         })?;
         for (check, entry) in &limits.0 {
             ensure!(!entry.reason.trim().is_empty(), "[{check}] gives no reason for its limits");

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
 use crate::measure::any_launch::TOLERANCE;
-use crate::measure::diagnosis::{self, Asked, Diagnosis};
+use crate::measure::diagnosis::{self, Asked, Diagnosis, NORMS};
 use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use pool::{Exchange, Pool};
@@ -30,9 +30,6 @@ pub use protocol::HEADER;
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
-
-/// The least and the largest norm of a quaternion that is taken for one of norm 1 with the error of an integration.
-const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
 /// A program that computes where a toss lands, as a command line of the shell.
 #[derive(Debug, Clone, PartialEq)]

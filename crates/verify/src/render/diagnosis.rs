@@ -58,7 +58,7 @@ pub(crate) fn folded<'a>(report: &Report, failing: Vec<&'a Row>) -> (Vec<&'a Row
     }
     let mut text = String::new();
     for checks in same.into_values().filter(|checks| checks.len() > 1) {
-        let _ = writeln!(text, "\nFor the same reason as {}: {}", checks[0], checks[1..].join(", "));
+        let _ = writeln!(text, "\nMost likely for the same reason as {}: {}", checks[0], checks[1..].join(", "));
     }
     (kept, text)
 }

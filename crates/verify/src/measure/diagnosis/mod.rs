@@ -1,6 +1,7 @@
-//! What a wrong solver most likely does, told from its answers to launches of every kind: a known
-//! mistake that explains them, an error that is merely larger than allowed, or the launches on which alone it is right. If
-//! none of these holds, the smallest question that fails is shown. The judge of all of it is the reference.
+//! What a wrong solver most likely does, told from its answers to launches of every kind: a known mistake that explains
+//! them, an error that is merely larger than allowed, or the launches on which alone it is right. If none of these holds, the
+//! smallest question that fails is shown. The judge of all of it is the reference. A cause is a conjecture from these launches,
+//! and is told with how many of them it explains.
 
 mod hypotheses;
 
@@ -34,8 +35,8 @@ const NEAR: f64 = 1e-6;
 /// A solver is right but for its accuracy if all its errors are below this (rad).
 const ROUGH: f64 = 1e-2;
 
-/// The least and the largest norm of a quaternion that is taken for one of norm 1.
-const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
+/// The least and the largest norm of a quaternion that is taken for one of norm 1 with the error of an integration.
+pub(crate) const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
 /// What stands before the reason why a program was given up.
 pub(crate) const GIVEN_UP: &str = "is no longer asked: it ";
@@ -280,8 +281,11 @@ const FEATURES: [Feature; 14] = [
     Feature("rate_z", |_, of| of.rate[2]),
 ];
 
-/// The fewest right answers on the one side of a bound, more than there are without a time of flight, the fewest on the other, and the part of the wrong ones on that which it rules out.
+/// The fewest answers on the side of a bound on which all are right, and on the other one. More than the former have no time
+/// of flight, in which every solver is right.
 const SIDES: [usize; 2] = [50, 5];
+
+/// The part of the answers on the other side of a bound that has to be wrong.
 const RULED_OUT: f64 = 0.75;
 
 /// A bound of one number of the question on whose one side all answers are right, and on the other nearly all are wrong.
