@@ -381,7 +381,7 @@ test("on a phone the coin, the button and the answer are on the first screen", a
 });
 
 test("the curve has the launch on it, and moving the point throws another one", async () => {
-  const page = await open(browser, "coin=us-quarter&turn=38rev/s&wobble=60deg&speed=2.4");
+  const page = await open(browser, "coin=us-quarter&turn=38rev/s&wobble=60deg&speed=2.4", { until: "scene" });
   const curve = page.locator("#fair-curve");
   const shown = () => curve.getAttribute("aria-valuetext");
   // 1/2 + asin(cot² 60°)/π = 0.60817
@@ -391,10 +391,12 @@ test("the curve has the launch on it, and moving the point throws another one", 
   await curve.press("ArrowRight");
   assert.equal(await page.inputValue("#wobble"), "61deg");
   assert.equal(await page.inputValue("#turn"), "38rev/s");
-  const { x, y, width, height } = await curve.boundingBox();
-  // The axis of 0° to 90° goes from 52 to 388 of 400.
-  await page.mouse.click(x + ((52 + 336 / 2) / 400) * width, y + height / 2);
-  assert.match(await shown(), /^ψ 4[45]\.\d°, (100|9\d\.\d) % heads/);
+  await drawn(page);
+  const { width, height } = await curve.boundingBox();
+  // The axis of 0° to 90° goes from 52 to 388 of 400. A click at a place in an element waits until the element stands still.
+  await curve.click({ position: { x: ((52 + 336 / 2) / 400) * width, y: height / 2 } });
+  await drawn(page);
+  assert.match(await shown(), /^ψ 4[45]\.\d°, (100|9\d\.\d+) % heads/);
   await page.fill("#tilt", "20deg");
   assert.match(await text(page, "fair-words"), /beside the curve/);
   await page.fill("#turn", "1rev/s");
