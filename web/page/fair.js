@@ -113,7 +113,8 @@ export class Fair {
   /** Draws when this flight shows heads, and when tails, unless its turns are too many to be seen. */
   strip(turns) {
     const isDrawn = flight.answer.flight_time > 0 && turns <= MOST_TURNS;
-    byId("fair-strip").hidden = !isDrawn;
+    // An SVG element has no property `hidden`.
+    byId("fair-strip").toggleAttribute("hidden", !isDrawn);
     byId("fair-share").textContent = isDrawn ? "" : "It turns too often for its sides to be drawn.";
     if (!isDrawn) return;
     const { cuts, share } = showing();

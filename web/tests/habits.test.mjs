@@ -383,30 +383,38 @@ test("on a phone the coin, the button and the answer are on the first screen", a
 test("the curve has the launch on it, and moving the point throws another one", async () => {
   const page = await open(browser, "coin=us-quarter&turn=38rev/s&wobble=60deg&speed=2.4", { until: "scene" });
   const curve = page.locator("#fair-curve");
-  const shown = () => curve.getAttribute("aria-valuetext");
+  const shown = async () => {
+    await drawn(page);
+    return curve.getAttribute("aria-valuetext");
+  };
+  const words = async () => {
+    await drawn(page);
+    return text(page, "fair-words");
+  };
   // 1/2 + asin(cot² 60°)/π = 0.60817
   assert.equal(await shown(), "ψ 60.0°, 60.8 % heads");
-  assert.match(await text(page, "fair-words"), /60\.8 % land heads/);
+  assert.match(await words(), /60\.8 % land heads/);
   assert.match(await text(page, "fair-share"), /heads (59|60|61|62)\.\d % of this flight/);
   await curve.press("ArrowRight");
   assert.equal(await page.inputValue("#wobble"), "61deg");
   assert.equal(await page.inputValue("#turn"), "38rev/s");
-  await drawn(page);
   const { width, height } = await curve.boundingBox();
   // The axis of 0° to 90° goes from 52 to 388 of 400. A click at a place in an element waits until the element stands still.
   await curve.click({ position: { x: ((52 + 336 / 2) / 400) * width, y: height / 2 } });
-  await drawn(page);
   assert.match(await shown(), /^ψ 4[45]\.\d°, (100|9\d\.\d+) % heads/);
   await page.fill("#tilt", "20deg");
-  assert.match(await text(page, "fair-words"), /beside the curve/);
+  assert.match(await words(), /beside the curve/);
   await page.fill("#turn", "1rev/s");
-  assert.match(await text(page, "fair-words"), /too few/);
+  assert.match(await words(), /too few/);
   await page.fill("#turn", "1000rev/s");
+  await drawn(page);
   assert.ok(await page.locator("#fair-strip").isHidden());
   await page.click("[data-preset=racket]");
+  await drawn(page);
   assert.ok(await curve.isHidden());
   assert.ok(await page.locator("#fair-strip").isVisible());
   await page.fill("#rate-x", "500");
+  await drawn(page);
   assert.ok(await page.locator("#fair-strip").isHidden());
   await close(page);
 });
