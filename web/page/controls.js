@@ -10,7 +10,7 @@ const sub = (letter, index) => ({ text: `${letter}${index}`, html: `${letter}<su
 /** The inputs of the scene that are one text each. */
 const ONE = [
   { id: "turn", label: { text: "turn ωL", html: "turn ω<sub>L</sub>", title: "rate |S|/I1 at which n turns about S" }, kind: "rate", range: [0, 20] },
-  { id: "wobble", label: { text: "wobble ψ", title: "angle between n and S" }, kind: "angle", range: [0, 180 * DEGREE], grows: false },
+  { id: "psi", label: { text: "angle ψ", title: "between n and S" }, kind: "angle", range: [0, 180 * DEGREE], grows: false },
   { id: "speed", label: { text: "speed v0", html: "speed v<sub>0</sub>", title: "upward speed at launch" }, kind: "speed", range: [0, 6] },
   { id: "time", label: { text: "time T" }, kind: "time", range: [0, 2] },
   { id: "gravity", label: { text: "gravity g" }, kind: "acceleration", range: [1, 25] },
@@ -21,7 +21,7 @@ const ONE = [
 /** The input that a field of a refusal belongs to, by how its name begins. */
 const FIELDS = [
   ["rate x", "rate-x"], ["rate y", "rate-y"], ["rate z", "rate-z"], ["rate", "rate-x"], ["turn", "turn"],
-  ["wobble", "wobble"], ["speed", "speed"], ["time", "time"], ["gravity", "gravity"], ["drop", "drop"], ["tilt", "tilt"],
+  ["psi", "psi"], ["speed", "speed"], ["time", "time"], ["gravity", "gravity"], ["drop", "drop"], ["tilt", "tilt"],
 ];
 
 /** The controls of the launch. */
@@ -46,7 +46,7 @@ export class Controls {
   place() {
     const of = (...ids) => ids.map((id) => this.inputs.get(id).element);
     fill(byId("rates"), ...of("rate-x", "rate-y", "rate-z"));
-    fill(byId("precession"), ...of("turn", "wobble"));
+    fill(byId("precession"), ...of("turn", "psi"));
     fill(byId("thrown"), ...of("speed", "gravity", "drop"));
     fill(byId("given-time"), ...of("time"));
     fill(byId("attitude"), ...of("tilt"));

@@ -150,6 +150,6 @@ export class Fair {
   take(angle) {
     const psi = `${typed(Math.min(90, Math.max(0, angle)), 3)}deg`;
     const turn = `${typed(this.motion.precession_rate / (2 * Math.PI))}rev/s`;
-    change({ scene: { by: "turn", turn, wobble: psi } }, "fair");
+    change({ scene: { by: "turn", turn, psi } }, "fair");
   }
 }

@@ -5,7 +5,7 @@ export const PRESETS = [
     name: "quarter",
     title: "A quarter as people flip it",
     words: "Its normal wobbles about the angular momentum by ψ = 81.2°. Over many such flips 50.8 % land as they started, as did the 350 757 flips of 48 people.",
-    scene: { coin: "us-quarter", by: "turn", turn: "38rev/s", wobble: "81.2deg", speed: "2.4m/s" },
+    scene: { coin: "us-quarter", by: "turn", turn: "38rev/s", psi: "81.2deg", speed: "2.4m/s" },
     pace: 0.03,
   },
   {

@@ -12,7 +12,7 @@ export const BLANK = {
   by: "rate",
   rate: ["1", "1", "2.5"],
   turn: "38rev/s",
-  wobble: "60deg",
+  psi: "60deg",
   flight: "speed",
   speed: "3",
   time: "0.6",
@@ -59,7 +59,7 @@ export function take({ scene, view }, source = null) {
 export function question(scene = state.scene) {
   const asked = { [scene.body]: scene[scene.body] };
   if (scene.by === "rate") asked.rate = scene.rate;
-  else Object.assign(asked, { turn: scene.turn, wobble: scene.wobble });
+  else Object.assign(asked, { turn: scene.turn, psi: scene.psi });
   if (scene.flight === "time") asked.time = scene.time;
   else {
     asked.speed = scene.speed;
@@ -157,7 +157,7 @@ function sceneOf(given, begun) {
   };
   scene.body = one(["coin", "cylinder", "moments"], begun.body);
   scene.flight = one(["speed", "time"], begun.flight);
-  scene.by = one(["rate", "turn" in given ? "turn" : "wobble"], begun.by).replace("wobble", "turn");
+  scene.by = one(["rate", "turn" in given ? "turn" : "psi"], begun.by).replace("psi", "turn");
   return scene;
 }
 

@@ -27,7 +27,7 @@ test("each preset is chosen, shown as chosen, and kept by the address", async ()
 
 test("the address carries the scene and the view there and back", async () => {
   const given =
-    "cylinder=5.67g,12.13mm,1.75mm&turn=38rev/s&wobble=60deg&speed=2.45m/s&gravity=1.62&drop=10cm&tilt=-3deg&map=speed&shade=chance&spread=2%25&scheme=taylor&tolerance=1e-6&pace=0.03";
+    "cylinder=5.67g,12.13mm,1.75mm&turn=38rev/s&psi=60deg&speed=2.45m/s&gravity=1.62&drop=10cm&tilt=-3deg&map=speed&shade=chance&spread=2%25&scheme=taylor&tolerance=1e-6&pace=0.03";
   const page = await open(browser, given);
   assert.equal(await address(page), given);
   await page.selectOption("#map-over", "rate_z");
@@ -38,7 +38,7 @@ test("the address carries the scene and the view there and back", async () => {
 test("an address that contradicts itself is named, and stays until the next change", async () => {
   for (const [given, words] of [
     ["toString=1", "'toString', which is unknown"],
-    ["rate=1,2,3&wobble=1", "rate and wobble"],
+    ["rate=1,2,3&psi=1", "rate and psi"],
     ["spede=3", "'spede', which is unknown"],
     ["rate=1,2", "not three numbers"],
     ["rate=1,2,3&turn=4", "rate and turn"],
@@ -64,7 +64,7 @@ test("what an address has right is kept beside what is wrong, and a preset can b
     ["speed=4&scheme=none", "'scheme=none': valid are dop853", "speed", "4"],
     ["preset=quarter&speed=9m/s", "", "speed", "9m/s"],
     ["preset=quarter&speed=9m/s", "", "turn", "38rev/s"],
-    ["preset=keller&turn=9&wobble=1", "", "wobble", "1"],
+    ["preset=keller&turn=9&psi=1", "", "psi", "1"],
   ]) {
     const page = await open(browser, given);
     assert.ok((await page.locator("#address-error").textContent()).includes(words), given);
@@ -381,7 +381,7 @@ test("on a phone the coin, the button and the answer are on the first screen", a
 });
 
 test("the curve has the launch on it, and moving the point throws another one", async () => {
-  const page = await open(browser, "coin=us-quarter&turn=38rev/s&wobble=60deg&speed=2.4", { until: "scene" });
+  const page = await open(browser, "coin=us-quarter&turn=38rev/s&psi=60deg&speed=2.4", { until: "scene" });
   const curve = page.locator("#fair-curve");
   const shown = async () => {
     await drawn(page);
@@ -396,7 +396,7 @@ test("the curve has the launch on it, and moving the point throws another one", 
   assert.match(await words(), /60\.8 % land heads/);
   assert.match(await text(page, "fair-share"), /heads (59|60|61|62)\.\d % of this flight/);
   await curve.press("ArrowRight");
-  assert.equal(await page.inputValue("#wobble"), "61deg");
+  assert.equal(await page.inputValue("#psi"), "61deg");
   assert.equal(await page.inputValue("#turn"), "38rev/s");
   const { width, height } = await curve.boundingBox();
   // The axis of 0° to 90° goes from 52 to 388 of 400. A click at a place in an element waits until the element stands still.

@@ -70,7 +70,7 @@ fn bad_input_names_its_field_in_the_words_of_the_library() {
         (json!({ "moments": "1,2,9", "rate": ["1", "2", "3"], "speed": "3" }), "I3 [kg m²]"),
         (json!({ "moments": "1", "rate": ["1", "2", "3"], "speed": "3" }), "moments [kg m²]"),
         (json!({ "moments": "1g·cm²,2", "rate": ["1", "2", "3"], "speed": "3" }), "moments"),
-        (json!({ "moments": "1,2,2.5", "turn": "1", "wobble": "1", "speed": "3" }), "turn"),
+        (json!({ "moments": "1,2,2.5", "turn": "1", "psi": "1", "speed": "3" }), "turn"),
         (json!({ "attitude": "0,0,1,0", "rate": ["1", "2", "3"], "speed": "3" }), "attitude"),
         (json!({ "spin": "1", "rate": ["1", "2", "3"], "speed": "3" }), "field"),
     ] {
@@ -208,7 +208,7 @@ fn frames_follow_the_trace_from_the_launch_to_the_landing() {
 
 #[test]
 fn an_error_grows_to_that_of_the_landing_and_raw_equations_fail_in_words() {
-    let scene = json!({ "coin": "us-quarter", "turn": "38rev/s", "wobble": "60deg", "speed": "2.45m/s" });
+    let scene = json!({ "coin": "us-quarter", "turn": "38rev/s", "psi": "60deg", "speed": "2.45m/s" });
     let by = json!({ "solver": "quaternion", "scheme": "dopri5", "tolerance": "1e-6" });
     let growth = ask(&json!({ "growth": { "scene": scene, "by": by, "points": 20 } }));
     let landing = ask(&json!({ "landing": { "scene": scene, "by": by } }));

@@ -37,7 +37,7 @@ mod _native {
         given::{array_of_numbers, count, in_si, number, unit_of},
         planner::plan,
         plans::Plan,
-        single::{intervals, inverse, land, margins, rate_of_precession, solve, trace, wobble},
+        single::{intervals, inverse, land, margins, power, rate_of_precession, same_side_bias, solve, trace},
         solver::{Solver, solvers},
         space::{Space, spaces},
         tally::{Tally, tally},

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use ::toss::defaults::TRACE_POINTS;
 use ::toss::quantity::Rounding;
 use ::toss::report;
-use ::toss::sampling::{Cone, Interval, SameSide, Spread, Wobble, long_flight_cone, rate_ratio};
+use ::toss::sampling::{Cone, Interval, Power, SameSide, SameSideBias, Spread, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
 use ::toss::{
     Backend, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed, refused};
-use crate::given::{counts, number, object, optional_number};
+use crate::given::{count, counts, number, object, optional_number};
 use crate::planner::points_of;
 use crate::solver::backend_of;
 use crate::threads::{self, Stop};
@@ -158,22 +158,62 @@ pub(crate) fn inverse(probability: &Bound<'_, PyAny>, body: &Bound<'_, PyAny>) -
     Ok((k, rate_ratio(probability, k).map_err(Failure::from)?, cone))
 }
 
-/// The rate of a coin whose normal goes round its angular momentum at `turn` (rad/s), at the angle `wobble` (rad).
+/// The rate of a coin whose normal goes round its angular momentum at `turn` (rad/s), at the angle ψ = `psi` to it (rad).
 #[pyfunction]
 pub(crate) fn rate_of_precession(
     turn: &Bound<'_, PyAny>,
-    wobble: &Bound<'_, PyAny>,
+    psi: &Bound<'_, PyAny>,
     body: &Bound<'_, PyAny>,
 ) -> PyResult<(f64, f64, f64)> {
     let coin = coin_of(&body_of(body)?.get().body, "the angle to the angular momentum is constant if I1 = I2")?;
-    let (turn, wobble) = (number("turn", turn)?, number("wobble", wobble)?);
-    let rate = dynamics::rate_of_precession(&coin, turn, wobble).map_err(Failure::from)?;
+    let (turn, psi) = (number("turn", turn)?, number("psi", psi)?);
+    let rate = dynamics::rate_of_precession(&coin, turn, psi).map_err(Failure::from)?;
     Ok((rate.x, rate.y, rate.z))
 }
 
-/// The fields of `unfair_toss.Wobble`. Of a person whom no wobble explains, the angles are NaN.
+/// The fields of `unfair_toss.Power`.
 #[derive(IntoPyObject)]
-pub(crate) struct Wobbled {
+pub(crate) struct PowerFields {
+    flips_of_one: f64,
+    people_needed: Option<f64>,
+    flips_needed: Option<f64>,
+    chance: Option<f64>,
+    least_share: Option<f64>,
+}
+
+/// What it takes to see a same-side share.
+#[pyfunction]
+pub(crate) fn power(
+    share: &Bound<'_, PyAny>,
+    sd: &Bound<'_, PyAny>,
+    power: &Bound<'_, PyAny>,
+    people: Option<&Bound<'_, PyAny>>,
+    flips: Option<&Bound<'_, PyAny>>,
+) -> PyResult<PowerFields> {
+    let wanted = Power::new(number("share", share)?, number("sd", sd)?, number("power", power)?);
+    let wanted = wanted.map_err(Failure::from)?;
+    #[expect(clippy::cast_precision_loss, reason = "at most 10^12")]
+    let whole = |name, given: Option<&Bound<'_, PyAny>>, least, valid| {
+        let Some(number) = given.map(|given| count(name, given)).transpose()? else { return Ok(None) };
+        let is_valid = (least..=1_000_000_000_000).contains(&number);
+        dynamics::error::require(name, number as f64, valid, is_valid).map_err(Failure::from)?;
+        Ok::<_, PyErr>(Some(number as f64))
+    };
+    let people = whole("people", people, 2, "2 to 1e12")?;
+    let flips = whole("flips", flips, 1, "1 to 1e12")?;
+    let both = people.zip(flips);
+    Ok(PowerFields {
+        flips_of_one: wanted.flips_of_one(),
+        people_needed: flips.map(|flips| wanted.people(flips)),
+        flips_needed: people.and_then(|people| wanted.flips(people)),
+        chance: both.map(|(people, flips)| wanted.chance(people, flips)),
+        least_share: both.and_then(|(people, flips)| wanted.least_share(people, flips)),
+    })
+}
+
+/// The fields of `unfair_toss.SameSideBias`. Of a person whom no ψ explains, the angles are NaN.
+#[derive(IntoPyObject)]
+pub(crate) struct SameSideBiasFields {
     same_side: u64,
     tosses: u64,
     probability: f64,
@@ -205,12 +245,12 @@ type Ends = (f64, f64);
 
 /// The ψ that explains how many of the tosses of each person landed on the side that had been up.
 #[pyfunction]
-pub(crate) fn wobble(
+pub(crate) fn same_side_bias(
     py: Python<'_>,
     same_side: &Bound<'_, PyAny>,
     tosses: &Bound<'_, PyAny>,
     body: &Bound<'_, PyAny>,
-) -> PyResult<Wobbled> {
+) -> PyResult<SameSideBiasFields> {
     let coin = coin_of(&body_of(body)?.get().body, "the limit of long flights is that of bodies with I1 = I2")?;
     let (is_one, same, of) = (same_side.len().is_err(), counts("same_side", same_side)?, counts("tosses", tosses)?);
     if same.is_empty() {
@@ -225,15 +265,15 @@ pub(crate) fn wobble(
     };
     let people = (0..).zip(same.into_iter().zip(of)).map(person).collect::<Result<Vec<_>, _>>()?;
     let given = people.clone();
-    let found = threads::aside(py, move |_| Ok(Wobble::of(&given)?))?;
+    let found = threads::aside(py, move |_| Ok(SameSideBias::of(&given)?))?;
     let inertia_ratio = coin.inertia_ratio();
     let ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose();
     let ends = |interval: Interval| <[f64; 2]>::from(interval).into();
     let unexplained = Cone { angle: f64::NAN, interval: [f64::NAN; 2] };
-    let alone = |person| Wobble::of(&[person]).ok().and_then(|one| one.cone).unwrap_or(unexplained);
+    let alone = |person| SameSideBias::of(&[person]).ok().and_then(|one| one.cone).unwrap_or(unexplained);
     let each = people.into_iter().map(alone);
     let spread = |Spread { sd, interval, chi2, p_value }| PeopleSpread { sd, interval: ends(interval), chi2, p_value };
-    Ok(Wobbled {
+    Ok(SameSideBiasFields {
         same_side: found.counts.same(),
         tosses: found.counts.tosses(),
         probability: found.share,

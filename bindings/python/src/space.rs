@@ -18,6 +18,9 @@ use crate::given::{self, axis, no_others, object, optional_number, text};
 /// ----------
 /// rate_x, rate_y, rate_z : float, tuple or str
 ///     Angular velocity at launch in rad/s, along the axes of the body.
+/// turn, psi : float, tuple or str
+///     In place of the rates: the rate in rad/s at which the normal n turns about the angular momentum S, and the angle in
+///     rad between n and S.
 /// speed : float, tuple or str
 ///     Upward speed at launch in m/s.
 /// gravity : float, tuple or str, optional
@@ -37,12 +40,14 @@ pub(crate) struct Space {
 #[pymethods]
 impl Space {
     #[new]
-    #[pyo3(signature = (*, rate_x, rate_y, rate_z, speed, gravity=None, tilt=None, drop=None, body=None, **others), text_signature = "(*, rate_x, rate_y, rate_z, speed, gravity=None, tilt=None, drop=None, body=None)")]
+    #[pyo3(signature = (*, rate_x=None, rate_y=None, rate_z=None, turn=None, psi=None, speed, gravity=None, tilt=None, drop=None, body=None, **others), text_signature = "(*, rate_x=None, rate_y=None, rate_z=None, turn=None, psi=None, speed, gravity=None, tilt=None, drop=None, body=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
-        rate_x: &Bound<'_, PyAny>,
-        rate_y: &Bound<'_, PyAny>,
-        rate_z: &Bound<'_, PyAny>,
+        rate_x: Option<&Bound<'_, PyAny>>,
+        rate_y: Option<&Bound<'_, PyAny>>,
+        rate_z: Option<&Bound<'_, PyAny>>,
+        turn: Option<&Bound<'_, PyAny>>,
+        psi: Option<&Bound<'_, PyAny>>,
         speed: &Bound<'_, PyAny>,
         gravity: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
@@ -51,7 +56,7 @@ impl Space {
         others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         no_others::<Self>(speed.py(), others)?;
-        let axes = [Some(rate_x), Some(rate_y), Some(rate_z), Some(speed), gravity, tilt];
+        let axes = [rate_x, rate_y, rate_z, Some(speed), gravity, tilt, turn, psi];
         let given = Coordinate::ALL.into_iter().zip(axes).filter_map(|(of, given)| Some((of, given?)));
         let texts = given.map(|(of, given)| Ok((of, axis(of.name(), given)?))).collect::<PyResult<Vec<_>>>()?;
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
@@ -80,7 +85,7 @@ impl Space {
     /// body : str or Body
     ///     A name of the catalogue, or a body.
     fn with_body(&self, body: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(Self { space: self.space.with_body(body_of(body)?.get().body) })
+        Ok(Self { space: self.space.with_body(body_of(body)?.get().body).map_err(Failure::from)? })
     }
 
     /// The space as JSON, as the parts of an estimate have it.

@@ -448,7 +448,7 @@ def test_columns_of_pandas_keep_their_labels():
     assert isinstance(found, pandas.Series) and found["a"] == ut.cos_tilt(2.0, 1.0, 1.0, 4.0)
     assert ut.attitude(frame.x, 1, 1, frame.v).loc["b"].tolist() == ut.attitude(3.0, 1, 1, 2.0).tolist()
     assert ut.outcome(frame, frame, 1, 2).loc["a", "v"] == ut.outcome(4.0, 4.0, 1, 2)
-    assert ut.wobble(frame.x.astype(int), frame.v.astype(int) + 9) == ut.wobble([3, 2], [11, 13])
+    assert ut.same_side_bias(frame.x.astype(int), frame.v.astype(int) + 9) == ut.same_side_bias([3, 2], [11, 13])
     out = np.empty(2)
     assert (ut.cos_tilt(frame.x, 1.0, 1.0, frame.v, out=out) == out).all()
 
@@ -488,4 +488,4 @@ def test_columns_whose_labels_differ_are_refused(one, two):
             function(one, 1.0, 1.0, two)
         assert caught.value.field in ("rate_x", "speed") and caught.value.valid == "the labels of the other columns, or one number"
     with pytest.raises(errors.MalformedError):
-        ut.wobble(one.astype(int), two if isinstance(two, list) else two.astype(int) + 5)
+        ut.same_side_bias(one.astype(int), two if isinstance(two, list) else two.astype(int) + 5)

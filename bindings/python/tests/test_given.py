@@ -109,9 +109,10 @@ CALLS = {
     "trace": (ut.trace, {"toss": TOSS, "points": 5, "solver": "exact"}),
     "trace by steps": (ut.trace, {"toss": TOSS, "dt": 0.1}),
     "inverse": (ut.inverse, {"probability": 0.8, "body": "paper"}),
-    "rate_of_precession": (ut.rate_of_precession, {"turn": 240.0, "wobble": 1.4, "body": "us-quarter"}),
-    "wobble": (ut.wobble, {"same_side": 60, "tosses": 100, "body": "paper"}),
-    "wobble of people": (ut.wobble, {"same_side": [56, 61, 20], "tosses": np.array([100, 100, 100])}),
+    "rate_of_precession": (ut.rate_of_precession, {"turn": 240.0, "psi": 1.4, "body": "us-quarter"}),
+    "power": (ut.power, {"share": 0.51, "sd": 0.02, "power": 0.9, "people": 25, "flips": 200}),
+    "same_side_bias": (ut.same_side_bias, {"same_side": 60, "tosses": 100, "body": "paper"}),
+    "same_side_bias of people": (ut.same_side_bias, {"same_side": [56, 61, 20], "tosses": np.array([100, 100, 100])}),
     "solve": (ut.solve, {"toss": TOSS, "solver": "euler", "t_eval": [0.0, 0.1], "scheme": "dopri5", "rtol": 1e-6}),
     "solve in a formulation": (ut.solve, {"toss": TOSS, "solver": "euler", "formulation": "momentum"}),
     "solve in SciPy's words": (ut.solve, {"toss": TOSS, "method": "DOP853", "atol": 1e-6, "dense_output": True}),
@@ -204,7 +205,7 @@ EFFECTS = {
     "Solver": (ut.Solver, {"name": "euler"}),
     "exact": (ut.Solver, {"name": "exact"}),
     "Plan.exact_speed": (lambda **more: ut.Plan.exact_speed(**more).of(SPACE), {}),
-    "rate_of_precession": (ut.rate_of_precession, {"turn": 20.0, "wobble": 1.0}),
+    "rate_of_precession": (ut.rate_of_precession, {"turn": 20.0, "psi": 1.0}),
     "intervals": (ut.intervals, {"toss": ut.Toss((1, 1, 2.5), speed=3.0)}),
 }
 KEYWORDS = {
@@ -234,7 +235,7 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "PeopleSpread", "Solution", "Trace", "Wobble", "Work"}
+    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "PeopleSpread", "Solution", "Power", "SameSideBias", "Trace", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
     without_arguments = {"bodies", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}

@@ -81,21 +81,21 @@ def test_intervals_inverse_and_plan_have_the_bits_of_the_command_line(ask):
 
 
 def test_a_rate_of_precession_has_the_bits_of_the_command_line(ask):
-    expected = ask("toss", "--coin", "us-quarter", "--turn", "238.75", "--wobble", "1.4", "--speed", "2.4")
+    expected = ask("toss", "--coin", "us-quarter", "--turn", "238.75", "--psi", "1.4", "--speed", "2.4")
     rate = ut.rate_of_precession(238.75, 1.4, "us-quarter")
     landing = ut.toss(ut.Toss(rate, speed=2.4, body="us-quarter"))
     assert (landing.cos_tilt, landing.attitude.tolist()) == (expected["cos_tilt"], expected["attitude"])
     with pytest.raises(errors.OutOfRangeError) as refused:
         ut.rate_of_precession(238.75, 4.0)
-    assert refused.value.field == "wobble [rad]"
+    assert refused.value.field == "psi [rad]"
 
 
-def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
-    one, people = ut.wobble(178078, 350757), tmp_path / "people.csv"
+def test_the_same_side_bias_has_the_bits_of_the_command_line(ask, tmp_path):
+    one, people = ut.same_side_bias(178078, 350757), tmp_path / "people.csv"
     assert [round(float(np.degrees(angle)), 2) for angle in (one.cone_angle, *one.cone_angle_interval)] == [81.16, 80.27, 82.16]
     same_side, tosses = np.array([56, 61, 20], dtype=np.uint16), [100, 100, 100]
     people.write_text("same,tosses\n" + "".join(f"{same},100\n" for same in same_side))
-    several, half = ut.wobble(same_side, tosses, "us-quarter"), ut.wobble([45], (100,))
+    several, half = ut.same_side_bias(same_side, tosses, "us-quarter"), ut.same_side_bias([45], (100,))
     for found, coin, counts in [(one, "paper", "178078/350757"), (several, "us-quarter", people), (half, "paper", "45/100")]:
         expected = ask("inverse", "--counts", str(counts), "--coin", coin)
         assert (found.same_side, found.tosses) == (expected["same"], expected["tosses"])
@@ -110,9 +110,9 @@ def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
         assert spread == expected["spread"]
     assert several.interval_kind == "beta-binomial 95 % of 3 people" and np.isnan(several.each_cone_angle).tolist() == [False, False, True]
     assert one.each_cone_angle.tolist() == [one.cone_angle] and half.rate_ratio is None
-    absent = ut.wobble([56, 0, 61, 20], [100, 0, 100, 100])
+    absent = ut.same_side_bias([56, 0, 61, 20], [100, 0, 100, 100])
     assert absent.interval == several.interval and np.isnan(absent.each_cone_angle).tolist() == [False, True, False, True]
-    below = ut.wobble(10, 100)
+    below = ut.same_side_bias(10, 100)
     assert (below.cone_angle, below.cone_angle_interval, below.rate_ratio) == (None, None, None)
 
 
@@ -133,7 +133,7 @@ def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
 )
 def test_counts_that_cannot_be_are_refused(counts, kind, field, index, valid):
     with pytest.raises(kind) as caught:
-        ut.wobble(*counts)
+        ut.same_side_bias(*counts)
     assert (caught.value.field, caught.value.index, caught.value.valid) == (field, index, valid)
 
 
@@ -244,7 +244,7 @@ def answers():
         ut.intervals(toss),
         ut.trace(toss, 5),
         ut.solve(toss),
-        ut.wobble([1, 60], [100, 100]),
+        ut.same_side_bias([1, 60], [100, 100]),
         ut.margins(toss),
         ut.inverse(0.8),
         ut.plan("tilt", toss, 1e-6),

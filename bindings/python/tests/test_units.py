@@ -114,7 +114,7 @@ WRONG = {
     "t [s]": lambda value: ut.solve(TOSS, dense_output=True).sol(value()),
     "tensor": lambda value: ut.Body.from_tensor([value("m/s", 3)] * 3),
     "moments": lambda value: ut.Body.from_moments(value("m/s", 3)),
-    "same_side": lambda value: ut.wobble(value(), [10]),
+    "same_side": lambda value: ut.same_side_bias(value(), [10]),
 }
 WRONG_NUMBERS = {
     "mass": lambda value: ut.Body.cylinder(value(), 1.0, 1.0),
@@ -123,7 +123,7 @@ WRONG_NUMBERS = {
     "step": lambda value: ut.Solver("euler", scheme="rk4", step=value()),
     "rtol": lambda value: ut.Solver("euler", rtol=value()),
     "turn": lambda value: ut.rate_of_precession(value(), 1.0),
-    "wobble": lambda value: ut.rate_of_precession(1.0, value()),
+    "psi": lambda value: ut.rate_of_precession(1.0, value()),
     "slowest": lambda value: ut.intervals(ut.Toss((1, 2, 3), speed=3.0), value("deg/s")),
     "probability": lambda value: ut.inverse(value()),
     "accuracy": lambda value: ut.plan("tilt", TOSS, value()),
@@ -172,7 +172,7 @@ def test_arrays_with_labels_name_their_unit(unit):
 
 def test_counts_that_say_they_have_no_unit_are_counts():
     people = xarray.DataArray([56, 61, 20], dims="person", attrs={"units": "1"})
-    assert ut.wobble(people, [100, 100, 100]) == ut.wobble(people.values, [100, 100, 100])
+    assert ut.same_side_bias(people, [100, 100, 100]) == ut.same_side_bias(people.values, [100, 100, 100])
     with pytest.raises(errors.InputError):
         ut.cos_tilt(xarray.Dataset({"x": people}), **REST)
 
@@ -236,7 +236,7 @@ def test_what_a_unit_rounded_is_not_proven(ask):
 
 
 def test_what_is_said_of_a_wrong_angle_is_python():
-    with pytest.raises(errors.OutOfRangeError, match=r"^wobble \[rad\] = 81.*; 81 degrees are np.radians\(81\) or '81deg'$"):
+    with pytest.raises(errors.OutOfRangeError, match=r"^psi \[rad\] = 81.*; 81 degrees are np.radians\(81\) or '81deg'$"):
         ut.rate_of_precession(1.0, 81.0)
     assert ut.rate_of_precession(1.0, "81deg") == ut.rate_of_precession(1.0, np.radians(81))
 

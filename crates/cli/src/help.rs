@@ -14,7 +14,7 @@ struct Group {
     names: &'static str,
 }
 
-const GROUPS: [Group; 5] = [
+const GROUPS: [Group; 6] = [
     Group {
         heading: "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
         manual: "Coin options",
@@ -23,7 +23,7 @@ const GROUPS: [Group; 5] = [
     Group {
         heading: "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
         manual: "Launch options",
-        names: "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt attitude space spread drag bounce from scene",
+        names: "rate turn psi rate_x rate_y rate_z speed time gravity drop tilt attitude space spread drag bounce from scene",
     },
     Group { heading: "Solver", manual: "Solver options", names: "solver scheme tolerance step formulation prove" },
     Group {
@@ -31,6 +31,7 @@ const GROUPS: [Group; 5] = [
         manual: "Sampling options",
         names: "method accuracy points seed steps replicates up_to reference across up threads heads shard",
     },
+    Group { heading: "People", manual: "People options", names: "share sd power people flips" },
     Group {
         heading: "Output",
         manual: "Output options",
@@ -57,13 +58,13 @@ struct Text {
 const TEXTS: &[Text] = &[
     Text {
         command: "toss",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) [OPTIONS]",
-        example: "unfair-toss toss --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s",
+        usage: "(--rate WX,WY,WZ | --turn RATE --psi PSI) (--speed V0 | --time T) [OPTIONS]",
+        example: "unfair-toss toss --coin us-quarter --turn 38rev/s --psi 60deg --speed 2.4m/s",
         meaning: "",
     },
     Text {
         command: "trace",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) (--points N | --dt H | --svg FILE) [OPTIONS]",
+        usage: "(--rate WX,WY,WZ | --turn RATE --psi PSI) (--speed V0 | --time T) (--points N | --dt H | --svg FILE) [OPTIONS]",
         example: "unfair-toss trace --rate 1,1,2.5 --speed 3 --dt 50ms",
         meaning: "Columns: time (s); w, x, y, z, the quaternion from the body to the laboratory; alpha, beta, gamma, its Euler \
                   angles (rad): precession, nutation, spin; normal_x to normal_z, the normal of the heads side, and face_x to \
@@ -71,14 +72,14 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "probability",
-        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --wobble PSI --speed AXIS) \
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --psi PSI --speed AXIS) \
                 [OPTIONS]",
-        example: "unfair-toss probability --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 1%",
+        example: "unfair-toss probability --coin us-quarter --turn 38rev/s --psi 60deg --speed 2.4m/s --spread 1%",
         meaning: "",
     },
     Text {
         command: "sample",
-        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --wobble PSI --speed AXIS) \
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --psi PSI --speed AXIS) \
                 --points N [OPTIONS]\n       unfair-toss sample - [OPTIONS] < LAUNCHES.csv",
         example: "unfair-toss sample --space paper-fig4 --points 1000",
         meaning: "Columns: wx, wy, wz, the body rate (rad/s); speed (m/s) or time (s), gravity (m/s²), drop (m) and tilt (rad) as \
@@ -87,7 +88,7 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "compare",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) [OPTIONS]",
+        usage: "(--rate WX,WY,WZ | --turn RATE --psi PSI) (--speed V0 | --time T) [OPTIONS]",
         example: "unfair-toss compare --rate 20,5,3 --speed 3 --repeats 0",
         meaning: "Columns: cos θ at landing; error, its distance from that of the exact motion; attitude/rad, the angle between \
                   the attitude at landing and that of the exact motion; outcome; calls of the right-hand side; steps; time, the \
@@ -95,8 +96,8 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "spread",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) --speed V0 --heads P [OPTIONS]",
-        example: "unfair-toss spread --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s --heads 95%",
+        usage: "(--rate WX,WY,WZ | --turn RATE --psi PSI) --speed V0 --heads P [OPTIONS]",
+        example: "unfair-toss spread --coin us-quarter --turn 38rev/s --psi 60deg --speed 2.4m/s --heads 95%",
         meaning: "Spread: with a spread S each rate and the speed is normal around its value x, with the standard deviation S·|x|, \
                   independent of the others. The answer is the largest S, up to 12 %, such that heads has at least the \
                   probability P at S and at every smaller spread.",
@@ -133,7 +134,7 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "intervals",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) --speed LO:HI [OPTIONS]",
+        usage: "(--rate WX,WY,WZ | --turn RATE --psi PSI) --speed LO:HI [OPTIONS]",
         example: "unfair-toss intervals --rate 20,5,3 --speed 3:4",
         meaning: "",
     },
@@ -144,6 +145,13 @@ const TEXTS: &[Text] = &[
         meaning: "With --counts: of N coins, K landed on the side that had been up. The answer is the angle ψ between the normal and \
                   the angular momentum that explains this, with its 95 % interval, if all launches left flat, turned many times and \
                   had the same ψ; 180° - ψ explains it as well. A file has one person per row, in the columns same and tosses, or start and lands with flips as letters.",
+    },
+    Text {
+        command: "power",
+        usage: "[--share P] [--people N] [--flips M] [OPTIONS]",
+        example: "unfair-toss power --share 0.508 --people 25 --flips 200",
+        meaning: "An experiment finds the share if the 95 % interval of inverse --counts leaves out 1/2. Many flips of few people do \
+                  not help where people differ: each is a sample of one hand.",
     },
     Text {
         command: "limit",

@@ -22,10 +22,12 @@ use std::io::{Read, Write};
 use std::process::ExitCode;
 
 use ::toss::Registry;
+use clap::error::{ContextKind, ContextValue};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use dynamics::data::NO_WOBBLE;
 
 use crate::commands::{
-    compare, convergence, errors, intervals, inverse, limit, list, map, parts, plan, probability, sample, shell,
+    compare, convergence, errors, intervals, inverse, limit, list, map, parts, plan, power, probability, sample, shell,
     spread, toss, trace,
 };
 use crate::failure::Failure;
@@ -62,8 +64,10 @@ enum Command {
     Merge(parts::Args),
     /// Find the ranges of speed that land heads
     Intervals(intervals::Args),
-    /// Find the wobble behind a probability of heads, or behind people's counts
+    /// Find the angle ψ behind a probability of heads, or behind people's counts
     Inverse(inverse::Args),
+    /// Say how many flips it takes to see that coins land on the side that had been up
+    Power(power::Args),
     /// Compare the limit of the probability of heads for long flights with the share of long flights that land heads
     Limit(limit::Args),
     /// Choose the cheapest model that answers a question accurately enough
@@ -97,6 +101,7 @@ impl Command {
             Self::Merge(args) => args.run(input),
             Self::Intervals(args) => args.run(input),
             Self::Inverse(args) => args.run(input),
+            Self::Power(args) => args.run(input),
             Self::Limit(args) => args.run(registry, input),
             Self::Plan(args) => args.run(registry, input),
             Self::Coins(args) => list::coins(args, input),
@@ -140,6 +145,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Stream
     let printed = match program_with(registry).try_get_matches_from(arguments) {
         Ok(given) => answer(registry, &given, &mut streams).and_then(|text| output::print(&text, streams.out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
+        Err(raw) if is_of_wobble(&raw) => Err(NO_WOBBLE.into()),
         Err(raw) => Err(Failure::Arguments(refusal(registry, arguments, raw))),
     };
     let Err(failure) = printed else { return 0 };
@@ -175,6 +181,11 @@ fn refusal(registry: &Registry, arguments: &[OsString], raw: clap::Error) -> cla
         argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into_owned().into())
     };
     program_with(registry).try_get_matches_from(arguments.iter().map(printed)).err().unwrap_or(raw)
+}
+
+/// Whether an option was given that has another name now.
+fn is_of_wobble(error: &clap::Error) -> bool {
+    matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(option)) if option == "--wobble")
 }
 
 /// The answer of the command that the arguments ask for.

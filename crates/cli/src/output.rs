@@ -65,42 +65,44 @@ pub(crate) struct SeriesArgs {
     /// Output format of the data [default: csv]
     #[arg(long, value_enum)]
     format: Option<DataFormat>,
+    #[command(flatten)]
+    chart: ChartArgs,
+}
+
+/// The option that draws a chart.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ChartArgs {
     /// Also draw a chart into this file; - draws it on standard output, in place of the data
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
-impl SeriesArgs {
+impl ChartArgs {
     /// Refuses a format of data that will not be printed, and a chart in a folder that is not there, before anything is computed.
-    pub(crate) fn validate(&self) -> Result<(), Failure> {
-        match (&self.svg, self.format) {
-            (Some(path), Some(_)) if whole_file::leads_to(path) => Err(Failure::usage(
+    pub(crate) fn validate(&self, has_format: bool) -> Result<(), Failure> {
+        match &self.svg {
+            Some(path) if has_format && whole_file::leads_to(path) => Err(Failure::usage(
                 "format",
                 "--format has no effect with --svg on standard output, where the chart stands in place of the data",
             )),
-            (Some(path), _) if is_named_as_another_picture(path) => Err(Failure::usage(
+            Some(path) if is_named_as_another_picture(path) => Err(Failure::usage(
                 "svg",
                 format!("svg = '{}' can't be used: expected a name that ends in .svg", path.display()),
             )),
-            (Some(path), _) => require_folder("svg", path),
-            _ => Ok(()),
+            Some(path) => require_folder("svg", path),
+            None => Ok(()),
         }
     }
 
-    /// Whether the answer is CSV without a chart.
-    pub(crate) fn is_csv_alone(&self) -> bool {
-        !self.has_chart() && self.format != Some(DataFormat::Json)
-    }
-
     /// Whether a chart is asked for.
-    pub(crate) fn has_chart(&self) -> bool {
+    pub(crate) fn is_some(&self) -> bool {
         self.svg.is_some()
     }
 
     /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
     pub(crate) fn answer(
         &self,
-        data: impl FnOnce(DataFormat) -> String,
+        data: impl FnOnce() -> String,
         draw: impl FnOnce() -> Result<String, Failure>,
     ) -> Result<String, Failure> {
         if let Some(path) = &self.svg {
@@ -112,7 +114,33 @@ impl SeriesArgs {
             }
             write("svg", path, &chart)?;
         }
-        Ok(data(self.format.unwrap_or(DataFormat::Csv)))
+        Ok(data())
+    }
+}
+
+impl SeriesArgs {
+    /// As [`ChartArgs::validate`].
+    pub(crate) fn validate(&self) -> Result<(), Failure> {
+        self.chart.validate(self.format.is_some())
+    }
+
+    /// Whether the answer is CSV without a chart.
+    pub(crate) fn is_csv_alone(&self) -> bool {
+        !self.has_chart() && self.format != Some(DataFormat::Json)
+    }
+
+    /// Whether a chart is asked for.
+    pub(crate) fn has_chart(&self) -> bool {
+        self.chart.is_some()
+    }
+
+    /// As [`ChartArgs::answer`], for data in the format that is asked for.
+    pub(crate) fn answer(
+        &self,
+        data: impl FnOnce(DataFormat) -> String,
+        draw: impl FnOnce() -> Result<String, Failure>,
+    ) -> Result<String, Failure> {
+        self.chart.answer(|| data(self.format.unwrap_or(DataFormat::Csv)), draw)
     }
 
     /// As [`SeriesArgs::answer`], for lines of plain data.

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use clap::Args;
-use dynamics::thrown::Field;
+use dynamics::thrown::{Field, Thrown};
 use indicatif::ProgressBar;
 use rayon::ThreadPoolBuilder;
 use sampling::{
@@ -18,7 +18,7 @@ use crate::chart::named;
 use crate::failure::Failure;
 use crate::output::{self, counter, progress_bar};
 use crate::quantity;
-use crate::toss_args::{CoinArgs, Options, TurnArgs};
+use crate::toss_args::{self, CoinArgs, Options};
 
 /// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
@@ -28,20 +28,25 @@ pub(crate) struct SpaceArgs {
     /// A named space of launches (`spaces` lists them), or a file that ends in .toml. Options of the coin and --drop replace
     /// what it says, and --spread widens its rates and its speed; the other options of a launch can't be used with it
     #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "turn", "wobble", "speed", "gravity", "tilt"])]
+          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "turn", "psi", "speed", "gravity", "tilt"])]
     space: Option<String>,
     /// Body rate ωx: VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; y or z ties it to
     /// that rate
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "psi"])]
     rate_x: Option<String>,
     /// Body rate ωy, likewise; x for ωy = ωx
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "psi"])]
     rate_y: Option<String>,
     /// Body rate ωz about the coin's normal, likewise
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with_all = ["turn", "psi"])]
     rate_z: Option<String>,
-    #[command(flatten)]
-    turn: TurnArgs,
+    /// Rate |S|/I1 at which the normal n turns about the angular momentum S, likewise; with --psi in place of the body rates
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    turn: Option<String>,
+    /// Angle ψ between n and S, from 0 to 180deg, likewise; with --turn. At 90deg the coin turns end over end; below 45deg a
+    /// coin that is thrown flat never turns its face over
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    psi: Option<String>,
     /// Upward speed v0 at launch: VALUE, LO:HI or normal:MEAN:SD, each also with :POINTS
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     speed: Option<String>,
@@ -69,7 +74,7 @@ impl SpaceArgs {
         };
         let space = if self.drop.is_some() { space.with_drop(self.drop)? } else { space };
         let Some(spread) = self.spread else { return Ok(space) };
-        let spreading = space.with_spread(spread, &HAND)?;
+        let spreading = space.with_spread(spread, &[HAND.as_slice(), &[Coordinate::Turn]].concat())?;
         if spreading == space {
             return Err(Failure::usage(
                 "spread",
@@ -81,19 +86,37 @@ impl SpaceArgs {
 
     fn space_of_axes(&self) -> Result<Space, Failure> {
         let body = self.coin.body()?;
-        let [x, y, z] = match self.turn.thrown()?.precession(&body)? {
+        let rate = self.fixed_precession()?.precession(&body)?.map(|rate| {
             // Display writes the fewest digits that read back as the same number.
-            Some(rate) => [rate.x, rate.y, rate.z].map(|rate| Some(rate.to_string())),
-            None => [self.rate_x.clone(), self.rate_y.clone(), self.rate_z.clone()],
-        };
-        let texts = [&x, &y, &z, &self.speed, &self.gravity, &self.tilt];
+            Coordinate::ALL.into_iter().zip([rate.x, rate.y, rate.z].map(|rate| rate.to_string())).collect()
+        });
+        let rate: Vec<(Coordinate, String)> = rate.unwrap_or_default();
+        let precession = [Coordinate::Turn, Coordinate::Psi];
         let given: Vec<(Coordinate, &str)> =
-            Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
+            self.texts().filter(|(of, _)| rate.is_empty() || !precession.contains(of)).collect();
+        let given: Vec<_> = rate.iter().map(|(of, text)| (*of, text.as_str())).chain(given).collect();
         if given.is_empty() {
             let message = "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed";
             return Err(Failure::usage("space", message));
         }
         Ok(Space::parse(body, &given)?)
+    }
+
+    /// The axes that were typed.
+    fn texts(&self) -> impl Iterator<Item = (Coordinate, &str)> {
+        let Self { rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, .. } = self;
+        let texts = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi];
+        Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?)))
+    }
+
+    /// The turn and ψ, if both have a single value.
+    fn fixed_precession(&self) -> Result<Thrown, Failure> {
+        let mut thrown = Thrown::default();
+        let typed = [(Field::Turn, self.turn.as_deref()), (Field::Psi, self.psi.as_deref())];
+        if !typed.iter().any(|(_, text)| text.is_some_and(|text| text.contains([':', '±']))) {
+            typed.iter().try_for_each(|(field, text)| text.map_or(Ok(()), |text| thrown.set(*field, text)))?;
+        }
+        Ok(thrown)
     }
 
     /// The space in words, for the title of a chart: by its name, or by its body and its axes as they were typed.
@@ -109,28 +132,29 @@ impl SpaceArgs {
             let body = self.coin.given_body().is_ok_and(|body| body.is_some());
             return format!("space {name}") + &if body { format!(", {}", named(space.body())) } else { String::new() };
         }
-        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
-        let typed = Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| {
+        let rate = self.fixed_precession().ok().and_then(|thrown| toss_args::words_of_rate(&thrown));
+        let is_said = |of: &Coordinate| rate.is_some() && [Coordinate::Turn, Coordinate::Psi].contains(of);
+        let typed = self.texts().filter(|(of, _)| !is_said(of)).map(|(of, text)| {
             let symbol = of.symbol().split('/').next().unwrap_or_default();
-            text.as_ref().map(|text| format!("{symbol} {text}"))
+            format!("{symbol} {text}")
         });
-        let axes: Vec<String> = self.turn.words_of_rate().into_iter().chain(typed).collect();
+        let axes: Vec<String> = rate.clone().into_iter().chain(typed).collect();
         format!("{}: {}", named(space.body()), axes.join(", "))
     }
 
     /// The rate at which n turns as it was understood, if it was given so.
     pub(crate) fn turn_in_words(&self) -> Option<String> {
-        self.turn.turn_in_words()
+        toss_args::turn_in_words(&self.fixed_precession().ok()?)
     }
 
-    /// Refuses a map over a rate that `--turn` and `--wobble` fix.
+    /// Refuses a map over a rate that `--turn` and `--psi` fix.
     pub(crate) fn require_free_rates(&self, axes: [Coordinate; 2]) -> Result<(), Failure> {
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ];
-        let is_fixed = self.turn.thrown()?.has(Field::Turn);
+        let is_fixed = self.fixed_precession()?.has(Field::Turn);
         let Some(of) = axes.into_iter().find(|of| is_fixed && rates.contains(of)) else { return Ok(()) };
         let rate = of.name();
         let message = format!(
-            "--turn and --wobble fix {rate}: a map of it needs --rate-x, --rate-y and --rate-z, with its own as LO:HI:POINTS"
+            "--turn and --psi fix {rate}: a map of it needs --rate-x, --rate-y and --rate-z, with its own as LO:HI:POINTS"
         );
         Err(Failure::usage("turn", message))
     }
@@ -142,7 +166,7 @@ impl SpaceArgs {
         space: &Space,
         has_grid: impl Fn(Coordinate) -> bool,
     ) -> Result<(), Failure> {
-        let own_axis = |of: &Coordinate| matches!(space.axis_or_tie(*of), AxisOrTie::Axis(_));
+        let own_axis = |of: &Coordinate| matches!(space.axis_or_tie(*of), Some(AxisOrTie::Axis(_)));
         let has_points = |of: &Coordinate| own_axis(of) && space.axis(*of).points().is_some();
         let idle = space.free().find(|of| self.space.is_none() && has_points(of) && !has_grid(*of));
         idle.map_or(Ok(()), |of| {
@@ -169,7 +193,7 @@ pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>
     } else {
         named_space(name)?
     };
-    Ok(body.map_or(space, |body| space.with_body(body)))
+    Ok(body.map_or(Ok(space), |body| space.with_body(body))?)
 }
 
 /// Options for the number and the seed of launches.

@@ -14,11 +14,10 @@ use crate::failure::Failure;
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 
-/// The fields that are options of each group: a body, a precession, a rate, and a body with its launch.
-const GROUPS: [fn(Field) -> bool; 4] = [
+/// The fields that are options of each group: a body, a rate, and a body with its launch.
+const GROUPS: [fn(Field) -> bool; 3] = [
     |field| Field::BODY.contains(&field),
-    |field| [Field::Turn, Field::Wobble].contains(&field),
-    |field| [Field::Rate, Field::Turn, Field::Wobble].contains(&field),
+    |field| [Field::Rate, Field::Turn, Field::Psi].contains(&field),
     |field| !field.info().value.is_empty(),
 ];
 
@@ -31,9 +30,8 @@ fn fields(group: usize) -> impl Iterator<Item = Field> {
 pub(crate) struct Options<const GROUP: usize>(Result<Thrown, InputError>);
 
 pub(crate) type CoinArgs = Options<0>;
-pub(crate) type TurnArgs = Options<1>;
-pub(crate) type RateArgs = Options<2>;
-pub(crate) type TossArgs = Options<3>;
+pub(crate) type RateArgs = Options<1>;
+pub(crate) type TossArgs = Options<2>;
 
 impl<const GROUP: usize> Args for Options<GROUP> {
     fn augment_args(command: Command) -> Command {
@@ -121,26 +119,9 @@ impl<const GROUP: usize> Options<GROUP> {
         self.thrown().map(Rounding::of)
     }
 
-    /// What was typed of the rate, for the title of a chart.
-    pub(crate) fn words_of_rate(&self) -> Option<String> {
-        let thrown = self.0.as_ref().ok()?;
-        if let (Some(turn), Some(wobble)) = (thrown.one(Field::Turn), thrown.one(Field::Wobble)) {
-            return Some(format!("n turns at {}, ψ = {}", shown(turn), shown(wobble)));
-        }
-        let components = thrown.components().ok()??;
-        let list = |number: fn(Given) -> String| components.map(number).join(", ");
-        Some(match common_unit(&components) {
-            Some(unit) => format!("ω = ({}) {}", list(|given| quantity::shortest(given.value())), unit.name()),
-            None => format!("ω = ({})", list(shown)),
-        })
-    }
-
-    /// The rate at which n turns as it was understood, in turns and in radians, if it was given so: people who write 38
-    /// without a unit often mean turns.
+    /// The rate at which n turns as it was understood, if it was given so.
     pub(crate) fn turn_in_words(&self) -> Option<String> {
-        let rate = self.0.as_ref().ok()?.one(Field::Turn)?.si();
-        let [turns, radians] = [rate / TAU, rate].map(quantity::rounded);
-        Some(format!("turn         {turns} rev/s = {radians} rad/s"))
+        turn_in_words(self.0.as_ref().ok()?)
     }
 
     /// The launch in the units in which it was typed, for the title of a chart.
@@ -154,8 +135,29 @@ impl<const GROUP: usize> Options<GROUP> {
             None => "horizontally".to_owned(),
         };
         let drop = thrown.and_then(|thrown| thrown.one(Field::Drop)).map(|drop| format!(", drop {}", shown(drop)));
-        format!("launched {tilt}, {}{}", self.words_of_rate().unwrap_or_default(), drop.unwrap_or_default())
+        format!("launched {tilt}, {}{}", thrown.and_then(words_of_rate).unwrap_or_default(), drop.unwrap_or_default())
     }
+}
+
+/// What was typed of the rate, for the title of a chart.
+pub(crate) fn words_of_rate(thrown: &Thrown) -> Option<String> {
+    if let (Some(turn), Some(psi)) = (thrown.one(Field::Turn), thrown.one(Field::Psi)) {
+        return Some(format!("n turns at {}, ψ = {}", shown(turn), shown(psi)));
+    }
+    let components = thrown.components().ok()??;
+    let list = |number: fn(Given) -> String| components.map(number).join(", ");
+    Some(match common_unit(&components) {
+        Some(unit) => format!("ω = ({}) {}", list(|given| quantity::shortest(given.value())), unit.name()),
+        None => format!("ω = ({})", list(shown)),
+    })
+}
+
+/// The rate at which n turns as it was understood, in turns and in radians, if it was given so: people who write 38 without
+/// a unit often mean turns.
+pub(crate) fn turn_in_words(thrown: &Thrown) -> Option<String> {
+    let rate = thrown.one(Field::Turn)?.si();
+    let [turns, radians] = [rate / TAU, rate].map(quantity::rounded);
+    Some(format!("turn         {turns} rev/s = {radians} rad/s"))
 }
 
 /// A quantity in the unit in which it was typed.

@@ -7,7 +7,7 @@
 //!                                  # the paper's coin if not given. Any body, of a Toss or a space, may also be
 //!                                  # { moments = [I1, I2, I3] } or { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }
 //! [launch]
-//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"; or turn and wobble
+//! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"; or turn and psi
 //! speed = 3.0                      # m/s; or time = 0.6, s
 //! gravity = 9.81                   # m/s²; this and the next two are the defaults
 //! drop = 0.0                       # m, how far below its launch the coin lands
@@ -16,7 +16,7 @@
 //!
 //! The names are those of [`thrown`](crate::thrown). A number is in the SI unit, and a text has a unit: `"15deg"`, `"24mm"`.
 //! Rates, tilts and cylinders keep their unit, so that proofs start from the numbers as given; other numbers, and `turn` with
-//! `wobble`, are converted. A launch without its body has no `turn` and `wobble`.
+//! `psi`, are converted. A launch without its body has no `turn` and `psi`.
 //!
 //! | type | as plain data |
 //! |---|---|
@@ -54,6 +54,10 @@ pub const NO_BOUNCE: InputError = InputError::OutsideModel {
     field: "bounce",
     why: "the flight ends at the first landing, and what the coin does on the floor is not solved",
 };
+
+/// Why `wobble` is refused: in the literature a coin that turns end over end, at ψ = 90°, does not wobble.
+pub const NO_WOBBLE: InputError =
+    InputError::Missing { field: "psi", expected: "psi (--psi) in place of wobble, for the angle between n and S" };
 
 #[cfg(test)]
 #[cfg(feature = "serde")]

@@ -12,7 +12,7 @@ use numerics::{Angle, AngleUnit};
 use crate::attitude::Attitude;
 use crate::body::Body;
 use crate::coin::Coin;
-use crate::data::{NO_BOUNCE, NO_DRAG};
+use crate::data::{NO_BOUNCE, NO_DRAG, NO_WOBBLE};
 use crate::error::{InputError, find_named, require};
 use crate::launch::Launch;
 use crate::precession::rate_of_precession;
@@ -42,7 +42,7 @@ pub enum Field {
     /// The rate of the precession, in place of the body rate.
     Turn,
     /// The angle ψ of the precession.
-    Wobble,
+    Psi,
     /// The speed v0.
     Speed,
     /// The time of flight T, in place of a speed.
@@ -61,6 +61,8 @@ pub enum Field {
     Drag,
     /// Bouncing, which is refused.
     Bounce,
+    /// An old name of ψ, which is refused.
+    Wobble,
 }
 
 /// What the text of a field holds.
@@ -124,7 +126,7 @@ impl FieldInfo {
 }
 
 /// All fields.
-pub static FIELDS: [FieldInfo; 19] = [
+pub static FIELDS: [FieldInfo; 20] = [
     field(Field::Coin, "coin", "coin", Holds::Name)
         .option("NAME", "A coin or another body of the catalogue, which `coins` lists [default: paper]"),
     list(
@@ -168,11 +170,12 @@ pub static FIELDS: [FieldInfo; 19] = [
     one(Field::RateZ, "wz", "rate z [rad/s]", Dimension::TurnRate),
     one(Field::Turn, "turn", "turn [rad/s]", Dimension::TurnRate).option(
         "RATE",
-        "Rate |S|/I1 at which the normal n turns about the angular momentum S; with --wobble in place of the body \
+        "Rate |S|/I1 at which the normal n turns about the angular momentum S; with --psi in place of the body \
          rate. It stands for ωx = RATE sin ψ, ωy = 0 and ωz = RATE cos ψ I1/I3",
     ),
-    one(Field::Wobble, "wobble", "wobble [rad]", Dimension::Angle)
-        .option("PSI", "Angle ψ between n and S, from 0 to 180deg; with --turn"),
+    one(Field::Psi, "psi", "psi [rad]", Dimension::Angle)
+        .option("PSI", "Angle ψ between n and S, from 0 to 180deg, with --turn. At 90deg the coin turns end over end; below 45deg a coin \
+         that is thrown flat never turns its face over"),
     one(Field::Speed, "speed", "speed [m/s]", Dimension::Speed).option("V0", "Upward speed v0 at launch"),
     one(Field::Time, "time", "time [s]", Dimension::Time).option("T", "Time of flight, instead of a speed"),
     one(Field::Gravity, "gravity", "gravity [m/s²]", Dimension::Acceleration).option("G", "Gravity [default: 9.81]"),
@@ -192,6 +195,7 @@ pub static FIELDS: [FieldInfo; 19] = [
         .option("C", "Air drag is outside the model; the option is refused with the reason"),
     field(Field::Bounce, "bounce", "bounce", Holds::Refused)
         .option("E", "Bouncing is outside the model; the option is refused with the reason"),
+    field(Field::Wobble, "wobble", "wobble", Holds::Refused),
 ];
 
 impl Field {
@@ -263,7 +267,11 @@ impl Thrown {
     pub fn set(&mut self, field: Field, text: &str) -> Result<(), InputError> {
         let info = field.info();
         match info.holds {
-            Holds::Refused => Err(if field == Field::Drag { NO_DRAG } else { NO_BOUNCE }),
+            Holds::Refused => Err(match field {
+                Field::Drag => NO_DRAG,
+                Field::Bounce => NO_BOUNCE,
+                _ => NO_WOBBLE,
+            }),
             Holds::Name => match self.coin.replace(text.to_owned()) {
                 None => Ok(()),
                 Some(_) => Err(field.twice("one value")),
@@ -415,15 +423,15 @@ impl Thrown {
     /// As [`Thrown::toss`].
     pub fn launch(&self, body: &Body, time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
         let launch = match self.components()? {
-            Some(_) if self.has(Field::Turn) || self.has(Field::Wobble) => {
-                return Err(Field::Rate.twice("either a rate, or turn with wobble"));
+            Some(_) if self.has(Field::Turn) || self.has(Field::Psi) => {
+                return Err(Field::Rate.twice("either a rate, or turn with psi"));
             }
             Some(given) => match common_unit(&given) {
                 Some(unit) => Launch::in_unit(given.map(Given::value), unit.angle_unit(), time_of_flight)?,
                 None => Launch::new(given.map(Given::si), time_of_flight)?,
             },
             None => {
-                let missing = Field::Rate.missing("a rate, or turn with wobble");
+                let missing = Field::Rate.missing("a rate, or turn with psi");
                 Launch::new(self.precession(body)?.ok_or(missing)?, time_of_flight)?
             }
         };
@@ -455,13 +463,13 @@ impl Thrown {
     /// As [`Thrown::toss`].
     pub fn precession(&self, body: &Body) -> Result<Option<Vector3<f64>>, InputError> {
         const WHY: &str = "n of a body with I1 ≠ I2 turns unevenly; use the body rate instead";
-        match (self.one(Field::Turn), self.one(Field::Wobble)) {
+        match (self.one(Field::Turn), self.one(Field::Psi)) {
             (None, None) => Ok(None),
-            (Some(_), None) => Err(Field::Wobble.missing("the angle between n and S, with turn")),
-            (None, Some(_)) => Err(Field::Turn.missing("the rate at which n turns, with wobble")),
-            (Some(turn), Some(wobble)) => {
+            (Some(_), None) => Err(Field::Psi.missing("the angle between n and S, with turn")),
+            (None, Some(_)) => Err(Field::Turn.missing("the rate at which n turns, with psi")),
+            (Some(turn), Some(psi)) => {
                 let coin = body.coin().ok_or(InputError::OutsideModel { field: "turn", why: WHY })?;
-                rate_of_precession(&coin, turn.si(), wobble.si()).map(Some)
+                rate_of_precession(&coin, turn.si(), psi.si()).map(Some)
             }
         }
     }

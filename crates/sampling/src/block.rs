@@ -20,6 +20,8 @@ pub(crate) struct Block {
     columns: Vec<Column>,
     /// Number of launches that the columns hold now.
     length: usize,
+    /// The space, if its rates follow from a precession.
+    of_precession: Option<Space>,
 }
 
 /// The place of the spare column, for numbers that nobody reads.
@@ -29,7 +31,8 @@ impl Block {
     /// A block in which every coordinate has its fixed value of `space`, until its column is written.
     pub(crate) fn new(space: &Space) -> Self {
         let values = space.fixed_values().into_iter().chain([0.0]);
-        Self { columns: values.map(|value| Column([value; BLOCK])).collect(), length: 0 }
+        let of_precession = space.is_of_precession().then_some(*space);
+        Self { columns: values.map(|value| Column([value; BLOCK])).collect(), length: 0, of_precession }
     }
 
     /// Sets the number of launches to `length` ≤ [`BLOCK`].
@@ -57,6 +60,17 @@ impl Block {
         let places = of.map(|of| of.map_or(SPARE, |of| of as usize));
         let columns = self.columns.get_disjoint_mut(places).expect("two different columns");
         columns.map(|column| &mut column.0[..self.length])
+    }
+
+    /// Writes the rates that follow from a turn and ψ, once these are written.
+    pub(crate) fn finish(&mut self) {
+        let Some(space) = self.of_precession else { return };
+        for index in 0..self.length {
+            let [turn, psi] = [Coordinate::Turn, Coordinate::Psi].map(|of| self.column(of)[index]);
+            let rate = space.rate_of(turn, psi).expect("a space of precessions");
+            self.column_mut(Coordinate::RateX)[index] = rate.x;
+            self.column_mut(Coordinate::RateZ)[index] = rate.z;
+        }
     }
 
     /// The values of launch number `index` of the block.

@@ -32,12 +32,15 @@ pub struct CertainLine {
 /// The reason why there is none, in words.
 pub fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'static str> {
     let axes = [map.across.0, map.up.0];
-    let is_of_motion = |of: Coordinate| of <= Coordinate::RateZ || of == Coordinate::Tilt;
+    let is_of_motion = |of: Coordinate| ![Coordinate::Speed, Coordinate::Gravity].contains(&of);
     if space.free().any(|of| is_of_motion(of) && !axes.contains(&of)) {
         return Err("no line: a rate or the tilt varies within each cell");
     }
     if axes.contains(&Coordinate::Tilt) {
         return Err("no line: over the tilt it has no formula");
+    }
+    if space.is_of_precession() {
+        return Err("no line: over the turn and ψ it has no formula here");
     }
     if !axes.iter().any(|of| is_of_motion(*of)) {
         return Err("no line: neither axis is a rate");
@@ -74,7 +77,7 @@ struct Edge {
 impl Edge {
     fn new(space: &Space, axes: [Coordinate; 2], inertia_ratio: f64) -> Self {
         let rate = |of: Coordinate| -> Linear {
-            let own = if let AxisOrTie::SameAs(partner) = space.axis_or_tie(of) { partner } else { of };
+            let own = if let Some(AxisOrTie::SameAs(partner)) = space.axis_or_tie(of) { partner } else { of };
             let along = axes.map(|axis| f64::from(axis == own));
             let constant = if axes.contains(&own) { 0.0 } else { space.axis(own).bounds()[0] };
             [along[0], along[1], constant]

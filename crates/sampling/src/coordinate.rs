@@ -1,5 +1,6 @@
-//! This file names the six coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt. Files,
-//! messages and charts each need a name of their own for them, and all of these are kept together here.
+//! This file names the coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt; or in place of the
+//! rates the turn and the angle ψ of the precession. Files, messages and charts each need a name of their own for them, and
+//! all of these are kept together here.
 
 use std::fmt;
 use std::str::FromStr;
@@ -22,6 +23,10 @@ pub enum Coordinate {
     Gravity,
     /// Angle by which the coin is turned about the x axis of the laboratory frame at launch (rad).
     Tilt,
+    /// The rate |S|/I1 at which the normal n turns about the angular momentum S (rad/s), in place of the rates.
+    Turn,
+    /// The angle ψ between n and S, with the turn (rad).
+    Psi,
 }
 
 /// Writes the [name](Coordinate::name).
@@ -42,15 +47,18 @@ impl FromStr for Coordinate {
 
 impl Coordinate {
     /// Number of coordinates.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 8;
 
     /// All coordinates, in the order in which a space stores them.
     pub const ALL: [Self; Self::COUNT] =
-        [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt];
+        [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt, Self::Turn, Self::Psi];
+
+    /// The coordinates that every launch has, whether its rates are given or follow from a precession.
+    pub const OF_LAUNCH: [Self; 6] = [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt];
 
     /// The name in files, such as `rate_x`.
     pub fn name(self) -> &'static str {
-        ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"][self as usize]
+        ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt", "turn", "psi"][self as usize]
     }
 
     /// The coordinate called `name`, which may also be written as the option of the command line, such as `rate-x`.
@@ -72,23 +80,32 @@ impl Coordinate {
 
     /// The name and unit in messages, such as `rate x [rad/s]`.
     pub fn field(self) -> &'static str {
-        ["rate x [rad/s]", "rate y [rad/s]", "rate z [rad/s]", "speed [m/s]", "gravity [m/s²]", "tilt [rad]"]
-            [self as usize]
+        match self {
+            Self::RateX => "rate x [rad/s]",
+            Self::RateY => "rate y [rad/s]",
+            Self::RateZ => "rate z [rad/s]",
+            Self::Speed => "speed [m/s]",
+            Self::Gravity => "gravity [m/s²]",
+            Self::Tilt => "tilt [rad]",
+            Self::Turn => "turn [rad/s]",
+            Self::Psi => "psi [rad]",
+        }
     }
 
     /// The kind of quantity that it is, which decides the units that its values may be typed with.
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::RateX | Self::RateY | Self::RateZ => Dimension::TurnRate,
+            Self::RateX | Self::RateY | Self::RateZ | Self::Turn => Dimension::TurnRate,
             Self::Speed => Dimension::Speed,
             Self::Gravity => Dimension::Acceleration,
-            Self::Tilt => Dimension::Angle,
+            Self::Tilt | Self::Psi => Dimension::Angle,
         }
     }
 
     /// The symbol and unit on charts, such as `ωx/(rad/s)`.
     pub fn symbol(self) -> &'static str {
-        ["ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "g/(m/s²)", "tilt/rad"][self as usize]
+        ["ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "g/(m/s²)", "tilt/rad", "turn/(rad/s)", "ψ/rad"]
+            [self as usize]
     }
 
     /// The text that ties another rate to this one: `x`, `y` or `z`. Other coordinates cannot have ties.
@@ -125,6 +142,6 @@ mod tests {
             assert!(unit.ends_with(&format!("[{bare}]")), "{of:?}: {unit}, {unit_on_charts}");
         }
         let unknown = Coordinate::named_in("up", "rate x").unwrap_err().to_string();
-        assert_eq!(unknown, "up = 'rate x' is unknown; known: rate_x, rate_y, rate_z, speed, gravity, tilt");
+        assert_eq!(unknown, "up = 'rate x' is unknown; known: rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi");
     }
 }

@@ -12,8 +12,8 @@ use crate::space::Space;
 /// A launch of a space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawn {
-    /// The values of its coordinates, in the order of [`Coordinate::ALL`]. A tied coordinate has the value of its partner.
-    pub values: [f64; Coordinate::COUNT],
+    /// The values of [`Coordinate::OF_LAUNCH`]. A tied coordinate has the value of its partner.
+    pub values: [f64; 6],
     /// The toss with these values.
     pub toss: Toss,
 }
@@ -41,7 +41,7 @@ impl Space {
 
     fn drawn_from(&self, block: &Block, index: usize) -> Drawn {
         let values = block.values(index);
-        Drawn { values: Coordinate::ALL.map(|of| values[self.place(of) as usize]), toss: self.toss(&values) }
+        Drawn { values: Coordinate::OF_LAUNCH.map(|of| values[self.place(of) as usize]), toss: self.toss(&values) }
     }
 }
 

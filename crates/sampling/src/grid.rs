@@ -13,8 +13,16 @@ use crate::space::Space;
 
 /// The coordinates from the slowest to the fastest varying. The speed is last, so that neighbouring launches differ in
 /// their time of flight alone.
-const ORDER: [Coordinate; Coordinate::COUNT] =
-    [Coordinate::Tilt, Coordinate::Gravity, Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ, Coordinate::Speed];
+const ORDER: [Coordinate; Coordinate::COUNT] = [
+    Coordinate::Tilt,
+    Coordinate::Gravity,
+    Coordinate::RateX,
+    Coordinate::RateY,
+    Coordinate::RateZ,
+    Coordinate::Turn,
+    Coordinate::Psi,
+    Coordinate::Speed,
+];
 
 /// The grid over all coordinates of a space, or over all but the speed.
 #[derive(Debug, Clone)]

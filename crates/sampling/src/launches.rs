@@ -39,5 +39,6 @@ impl Launches {
                 }
             }
         }
+        block.finish();
     }
 }

@@ -91,11 +91,12 @@ fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
         expected: "an axis for a map: LO:HI:POINTS with 2 to 10000 points, and not tied",
     };
     match space.axis_or_tie(of) {
-        AxisOrTie::Axis(axis) => match axis.points() {
+        Some(AxisOrTie::Axis(axis)) => match axis.points() {
             Some(points @ 2..=MOST) => Ok(points),
             _ => Err(refused(axis.to_string())),
         },
-        tie @ AxisOrTie::SameAs(_) => Err(refused(tie.to_string())),
+        Some(tie @ AxisOrTie::SameAs(_)) => Err(refused(tie.to_string())),
+        None => Err(refused("not given".to_owned())),
     }
 }
 
@@ -127,7 +128,7 @@ mod tests {
             assert!(*probability > 1.0 - 1e-7 || least_cos_tilt < 1e-15, "{rate_x}, {rate_z}: {probability}");
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
-                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]).coin().unwrap();
+                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0, 0.0, 0.0]).coin().unwrap();
                 CoinMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
             });
             assert!((probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {probability}");

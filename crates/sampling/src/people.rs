@@ -37,7 +37,7 @@ use crate::estimate::LEVEL;
 use crate::interval::Interval;
 
 /// Level of Student's quantile at which the interval of people as skewed as those of arXiv 2310.04153 holds [`LEVEL`].
-const STUDENT: f64 = 0.97;
+pub(crate) const STUDENT: f64 = 0.97;
 /// The smallest ln φ, a standard deviation of 0.998 of the largest that a mean allows.
 const LOWEST: f64 = -5.0;
 /// The largest ln φ, a standard deviation of at most 1.7e-4. People who differ by less count as alike.

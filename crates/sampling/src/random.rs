@@ -12,12 +12,12 @@ use numerics::lanes::{Philox, Simd, SimdLevel, WithSimd};
 
 use crate::axis::{Axis, Distribution};
 use crate::block::{BLOCK, Block};
-use crate::coordinate::Coordinate::{self, Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use crate::coordinate::Coordinate::{self, Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
 use crate::space::{Cube, Space};
 
 /// The coordinates that share a block of the generator; the number of the pair is the upper half of the counter. The
 /// first rate and the speed come first, so that the many spaces in which only these vary take one block a launch.
-const PAIRS: [[Coordinate; 2]; 3] = [[RateX, Speed], [RateY, RateZ], [Gravity, Tilt]];
+const PAIRS: [[Coordinate; 2]; 4] = [[RateX, Speed], [RateY, RateZ], [Gravity, Tilt], [Turn, Psi]];
 
 /// Writes the launches from number `start` on of the random sequence with this `seed` over `cube` into `block`.
 pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block) {

@@ -2,7 +2,7 @@
 
 use dynamics::InputError;
 
-use crate::wobble::SameSide;
+use crate::same_side::SameSide;
 
 /// Which side is up before a flip, where only the first one was written down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

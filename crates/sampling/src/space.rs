@@ -2,12 +2,15 @@
 //! so that all methods of sampling can be applied to the same space.
 //!
 //! It is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt; a rate may also be
-//! tied to another rate, and then has the same value. The coin is caught at the height of its launch, T = 2 v0/g, or at a
+//! tied to another rate, and then has the same value. In place of the rates the turn and the angle ψ of the precession may
+//! have distributions, from which the rates [follow](rate_of_precession). The coin is caught at the height of its launch, T = 2 v0/g, or at a
 //! fixed drop below it.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
 use dynamics::error::require;
+use dynamics::precession::rate_of_precession;
 use dynamics::{Body, Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
@@ -44,7 +47,8 @@ impl fmt::Display for AxisOrTie {
 )]
 pub struct Space {
     body: Body,
-    axes: [AxisOrTie; Coordinate::COUNT],
+    /// Those that are given: the rates, or the turn and ψ.
+    axes: [Option<AxisOrTie>; Coordinate::COUNT],
     /// For each coordinate, the one that its value is taken from: itself, or the one that it is tied to.
     places: [Coordinate; Coordinate::COUNT],
     /// How far below the launch the coins land (m); `None` for a landing at the height of the launch.
@@ -52,19 +56,30 @@ pub struct Space {
 }
 
 impl Space {
-    /// Makes and checks a space from an axis or tie for every coordinate, in the order of [`Coordinate::ALL`].
-    pub(crate) fn new(body: Body, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
+    /// Makes and checks a space from the axes and ties of the coordinates that are given, in the order of
+    /// [`Coordinate::ALL`].
+    pub(crate) fn new(body: Body, axes: [Option<AxisOrTie>; Coordinate::COUNT]) -> Result<Self, InputError> {
         let mut places = Coordinate::ALL;
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
             match axis {
-                AxisOrTie::Axis(axis) => _ = axis.validated(of)?,
-                AxisOrTie::SameAs(other) => {
-                    require_tie(of, other, matches!(axes[other as usize], AxisOrTie::Axis(_)))?;
+                None => {}
+                Some(AxisOrTie::Axis(axis)) => _ = axis.validated(of)?,
+                Some(AxisOrTie::SameAs(other)) => {
+                    require_tie(of, other, matches!(axes[other as usize], Some(AxisOrTie::Axis(_))))?;
                     places[of as usize] = other;
                 }
             }
         }
-        let space = Self { body, axes, places, drop: None };
+        let space = Self { body, axes, places, drop: None }.with_body(body)?;
+        if space.is_of_precession() {
+            let [slowest, _] = space.axis(Coordinate::Turn).bounds();
+            let valid = "turns >= 0 only, also 8.3 standard deviations below a normal mean";
+            require(Coordinate::Turn.field(), slowest, valid, slowest >= 0.0)?;
+            for end in space.axis(Coordinate::Psi).bounds() {
+                let valid = "angles from 0 to π only, also 8.3 standard deviations from a normal mean";
+                require(Coordinate::Psi.field(), end, valid, (0.0..=PI).contains(&end))?;
+            }
+        }
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
         let valid = "speeds >= 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
@@ -90,14 +105,27 @@ impl Space {
         let components = || format!("{:?}", launch.attitude().components());
         let tilt = launch.tilt().ok_or_else(|| other("attitude", components(), "a tilt about the x axis"))?;
         let [x, y, z] = launch.rate().into();
-        Self::new(*body, [x, y, z, speed, gravity, tilt].map(|value| AxisOrTie::Axis(value.into())))?
-            .with_drop(flight.drop())
+        let values = Coordinate::OF_LAUNCH.into_iter().zip([x, y, z, speed, gravity, tilt]);
+        values.fold(Self::builder(*body), |space, (of, value)| space.axis(of, value)).build()?.with_drop(flight.drop())
     }
 
     /// The same space for another coin or body.
-    #[must_use]
-    pub fn with_body(self, body: impl Into<Body>) -> Self {
-        Self { body: body.into(), ..self }
+    ///
+    /// # Errors
+    /// [`InputError::OutsideModel`] for a body without a precession, in a space of turns and angles ψ.
+    pub fn with_body(self, body: impl Into<Body>) -> Result<Self, InputError> {
+        let space = Self { body: body.into(), ..self };
+        if space.is_of_precession() {
+            let why = "n of a body with I1 ≠ I2 keeps no angle to S; give the rates";
+            let coin = space.coin().ok_or(InputError::OutsideModel { field: "turn", why })?;
+            rate_of_precession(&coin, 0.0, 0.0)?;
+        }
+        Ok(space)
+    }
+
+    /// Whether the rates follow from a turn and an angle ψ.
+    pub fn is_of_precession(&self) -> bool {
+        self.axes[Coordinate::Turn as usize].is_some()
     }
 
     /// The same space for coins that land `drop` (m) below their launch, or above it if `drop` is negative.
@@ -137,7 +165,7 @@ impl Space {
     /// As [`SpaceBuilder::build`](crate::SpaceBuilder::build).
     pub fn with_axis(self, of: Coordinate, axis: impl Into<Axis>) -> Result<Self, InputError> {
         let mut axes = self.axes;
-        axes[of as usize] = AxisOrTie::Axis(axis.into());
+        axes[of as usize] = Some(AxisOrTie::Axis(axis.into()));
         Self::new(self.body, axes)?.with_drop(self.drop)
     }
 
@@ -151,22 +179,41 @@ impl Space {
         self.body.coin()
     }
 
-    /// The axis of a coordinate, or its tie.
-    pub fn axis_or_tie(&self, of: Coordinate) -> AxisOrTie {
+    /// The axis of a coordinate, or its tie; `None` if it is not given, as the rates of a precession.
+    pub fn axis_or_tie(&self, of: Coordinate) -> Option<AxisOrTie> {
         self.axes[of as usize]
     }
 
-    /// The axis that gives a coordinate its values. For a tied coordinate it is the axis of its partner.
+    /// The axis that gives a coordinate its values. For a tied coordinate it is the axis of its partner, and for a rate that
+    /// follows from a precession the range of its values. The turn and ψ of a space of rates are 0.
     pub fn axis(&self, of: Coordinate) -> Axis {
         match self.axes[of as usize] {
-            AxisOrTie::Axis(axis) => axis,
-            AxisOrTie::SameAs(other) => self.axis(other),
+            Some(AxisOrTie::Axis(axis)) => axis,
+            Some(AxisOrTie::SameAs(other)) => self.axis(other),
+            None if self.is_of_precession() => self.range_of_rate(of),
+            None => Axis::fixed(0.0),
         }
+    }
+
+    /// The range of a rate that follows from a precession, but for roundings.
+    fn range_of_rate(&self, of: Coordinate) -> Axis {
+        let ([slowest, fastest], psi) = (self.axis(Coordinate::Turn).bounds(), self.axis(Coordinate::Psi).bounds());
+        let factors = match of {
+            Coordinate::RateX if psi[0] <= FRAC_PI_2 && FRAC_PI_2 <= psi[1] => [psi[0].sin().min(psi[1].sin()), 1.0],
+            Coordinate::RateX => psi.map(f64::sin),
+            Coordinate::RateZ => psi.map(|psi| psi.cos() / self.coin().map_or(1.0, |coin| coin.inertia_ratio())),
+            _ => return Axis::fixed(0.0),
+        };
+        let products = factors.map(|factor| [slowest * factor, fastest * factor]);
+        let ends = products.into_iter().flatten();
+        let [lo, hi] = [ends.clone().fold(f64::INFINITY, f64::min), ends.fold(f64::NEG_INFINITY, f64::max)];
+        if lo < hi { Axis::range(lo..=hi) } else { Axis::fixed(lo) }
     }
 
     /// The coordinates that vary: those that are not tied and have more than one value.
     pub fn free(&self) -> impl Iterator<Item = Coordinate> {
-        let own = |of: &Coordinate| matches!(self.axes[*of as usize], AxisOrTie::Axis(axis) if axis.value().is_none());
+        let own =
+            |of: &Coordinate| matches!(self.axes[*of as usize], Some(AxisOrTie::Axis(axis)) if axis.value().is_none());
         Coordinate::ALL.into_iter().filter(own)
     }
 
@@ -180,6 +227,12 @@ impl Space {
         self.places[of as usize]
     }
 
+    /// The body rate that follows from a turn and ψ; `None` in a space of rates.
+    pub(crate) fn rate_of(&self, turn: f64, psi: f64) -> Option<Vector3<f64>> {
+        let coin = self.coin().filter(|_| self.is_of_precession())?;
+        Some(rate_of_precession(&coin, turn, psi).expect("every axis was checked when the space was made"))
+    }
+
     /// The toss of the body with these values. The value of a tied coordinate is taken from its partner.
     pub(crate) fn toss(&self, values: &Values) -> Toss {
         Toss { body: self.body, launch: self.launch(values) }
@@ -188,7 +241,10 @@ impl Space {
     /// The launch with these values. The value of a tied coordinate is taken from its partner.
     pub(crate) fn launch(&self, values: &Values) -> Launch {
         let value = |of: Coordinate| values[self.place(of) as usize];
-        let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
+        let rate = match self.rate_of(value(Coordinate::Turn), value(Coordinate::Psi)) {
+            Some(rate) => rate,
+            None => Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ)),
+        };
         let time = TimeOfFlight::thrown(value(Coordinate::Speed), value(Coordinate::Gravity), self.drop);
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
         let tilt = value(Coordinate::Tilt);

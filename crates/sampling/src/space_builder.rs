@@ -97,10 +97,18 @@ impl SpaceBuilder {
                 require_tie(of, other, matches!(self.axes[other as usize], Some(AxisOrTie::Axis(_))))?;
             }
         }
-        let missing = |of: Coordinate| InputError::Missing { field: of.field(), expected: "a value, a range or a tie" };
-        let given = |of: Coordinate| self.axes[of as usize].ok_or_else(|| missing(of));
-        let [x, y, z, speed, gravity, tilt] = Coordinate::ALL.map(given);
-        Space::new(self.body, [x?, y?, z?, speed?, gravity?, tilt?])
+        let is_given = |of: &Coordinate| self.axes[*of as usize].is_some();
+        let (rates, precession) = (&Coordinate::ALL[..3], [Coordinate::Turn, Coordinate::Psi]);
+        let turns = precession.iter().any(is_given);
+        if let Some(rate) = rates.iter().find(|rate| turns && is_given(rate)) {
+            let expected = "either rates, or a turn with psi";
+            return Err(InputError::Malformed { field: rate.field(), value: "given twice".to_owned(), expected });
+        }
+        let needed = if turns { &precession[..] } else { rates };
+        if let Some(of) = needed.iter().chain(&[Coordinate::Speed]).find(|of| !is_given(of)) {
+            return Err(InputError::Missing { field: of.field(), expected: "a value, a range or a tie" });
+        }
+        Space::new(self.body, self.axes)
     }
 }
 

@@ -37,15 +37,22 @@ pub(crate) fn paper() -> Body {
 pub(crate) struct SpaceData {
     #[serde(default = "paper", alias = "body")]
     coin: Body,
-    #[serde(alias = "rate-x")]
+    #[serde(alias = "rate-x", skip_serializing_if = "Option::is_none")]
     rate_x: Option<Entry>,
-    #[serde(alias = "rate-y")]
+    #[serde(alias = "rate-y", skip_serializing_if = "Option::is_none")]
     rate_y: Option<Entry>,
-    #[serde(alias = "rate-z")]
+    #[serde(alias = "rate-z", skip_serializing_if = "Option::is_none")]
     rate_z: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     gravity: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     tilt: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turn: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    psi: Option<Entry>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drop: Option<Entry>,
 }
@@ -54,8 +61,8 @@ impl TryFrom<SpaceData> for Space {
     type Error = InputError;
 
     fn try_from(data: SpaceData) -> Result<Self, InputError> {
-        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = data;
-        let entries = Coordinate::ALL.into_iter().zip([rate_x, rate_y, rate_z, speed, gravity, tilt]);
+        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop } = data;
+        let entries = Coordinate::ALL.into_iter().zip([rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi]);
         let texts: Vec<_> = entries.filter_map(|(of, entry)| Some((of, entry?.text()))).collect();
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
         let drop = drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
@@ -65,8 +72,8 @@ impl TryFrom<SpaceData> for Space {
 
 impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
-        let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of).to_string()));
-        let [rate_x, rate_y, rate_z, speed, gravity, tilt] = Coordinate::ALL.map(entry);
+        let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of)?.to_string()));
+        let [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi] = Coordinate::ALL.map(entry);
         Self {
             coin: *space.body(),
             rate_x,
@@ -75,6 +82,8 @@ impl From<Space> for SpaceData {
             speed,
             gravity,
             tilt,
+            turn,
+            psi,
             drop: space.drop().map(Entry::Number),
         }
     }
@@ -92,7 +101,7 @@ mod tests {
             assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
             let dropped = named.space.with_drop(Some(1.25)).unwrap();
             assert_eq!(toml::from_str::<Space>(&toml::to_string(&dropped).unwrap()).unwrap(), dropped);
-            let body = named.space.with_body(dynamics::catalogue::named_body("us-quarter-engraved").unwrap());
+            let body = named.space.with_body(dynamics::catalogue::named_body("us-quarter-engraved").unwrap()).unwrap();
             assert_eq!(toml::from_str::<Space>(&toml::to_string(&body).unwrap()).unwrap(), body);
         }
     }

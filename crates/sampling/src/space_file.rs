@@ -51,6 +51,8 @@ struct File {
     speed: Option<Spanned<Entry>>,
     gravity: Option<Spanned<Entry>>,
     tilt: Option<Spanned<Entry>>,
+    turn: Option<Spanned<Entry>>,
+    psi: Option<Spanned<Entry>>,
     drop: Option<Spanned<Entry>>,
 }
 
@@ -62,9 +64,10 @@ impl DescribedSpace {
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         // The mark of UTF-8 that some editors put before a text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = toml::from_str(text)
-            .map_err(|error: toml::de::Error| error_at(text, error.span(), in_words(error.message())))?;
-        let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
+        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop } =
+            toml::from_str(text)
+                .map_err(|error: toml::de::Error| error_at(text, error.span(), in_words(error.message())))?;
+        let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi];
         let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
             .into_iter()
             .zip(entries)

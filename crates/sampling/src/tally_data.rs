@@ -65,7 +65,7 @@ impl TallyData {
             Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Enclosure { .. } => {}
         }
         space.body().inertia().iter().for_each(|element| add(element));
-        Coordinate::ALL.into_iter().for_each(|of| add(&space.axis_or_tie(of)));
+        Coordinate::ALL.into_iter().filter_map(|of| space.axis_or_tie(of)).for_each(|axis| add(&axis));
         space.drop().iter().for_each(|drop| add(drop));
         for CountsData { heads, tails, undecided } in counts.iter().flatten() {
             [heads, tails, undecided].into_iter().for_each(|number| add(number));

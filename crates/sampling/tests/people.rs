@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use sampling::{Interval, SameSide, Wobble};
+use sampling::{Interval, SameSide, SameSideBias};
 use serde_json::Value;
 use statrs::distribution::{Beta, ContinuousCDF};
 
@@ -16,10 +16,10 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/people")
 }
 
-fn wobble(people: impl IntoIterator<Item = (u64, u64)>) -> Wobble {
+fn same_side_bias(people: impl IntoIterator<Item = (u64, u64)>) -> SameSideBias {
     let people: Vec<SameSide> =
         people.into_iter().map(|(same, tosses)| SameSide::new(same, tosses).expect("counts that can be")).collect();
-    Wobble::of(&people).expect("a person with a toss")
+    SameSideBias::of(&people).expect("a person with a toss")
 }
 
 /// The people of a file, with the rows of each person added up.
@@ -55,7 +55,7 @@ fn twelve_files_have_the_answers_of_the_reference() {
     let answers: BTreeMap<String, Value> = serde_json::from_str(&answers).unwrap();
     assert_eq!(answers.len(), 12);
     for (name, expected) in &answers {
-        let found = wobble(people(name));
+        let found = same_side_bias(people(name));
         let counts = [found.counts.same(), found.counts.tosses(), found.people as u64];
         assert_eq!(
             counts.map(Value::from),
@@ -101,7 +101,7 @@ fn twelve_files_have_the_answers_of_the_reference() {
 
 #[test]
 fn the_published_people_have_their_mean_and_interval() {
-    let found = wobble(people("04-published-48.csv"));
+    let found = same_side_bias(people("04-published-48.csv"));
     let rounded = |value: f64, places: i32| (value * 10f64.powi(places)).round() / 10f64.powi(places);
     assert_eq!(
         (rounded(found.mean, 5), ends(found.interval).iter().map(|end| rounded(*end, 4)).collect::<Vec<_>>()),
@@ -113,7 +113,7 @@ fn the_published_people_have_their_mean_and_interval() {
 #[test]
 fn shares_that_agree_have_an_interval_and_a_share_of_a_half_is_one_of_90_degrees() {
     for people in [vec![(50, 100), (5, 10), (500, 1000)], vec![(40, 100), (60, 100)], vec![(1, 2); 9]] {
-        let found = wobble(people);
+        let found = same_side_bias(people);
         assert_eq!((found.mean, found.cone.unwrap().angle), (0.5, std::f64::consts::FRAC_PI_2), "{found:?}");
         assert!(found.interval.width() > found.these_flips.width(), "{found:?}");
     }
@@ -123,10 +123,10 @@ fn shares_that_agree_have_an_interval_and_a_share_of_a_half_is_one_of_90_degrees
 #[test]
 fn people_have_no_order_and_both_sides_of_a_coin_the_same_rules() {
     for name in ["02-one-dominates.csv", "05-class-of-25.csv", "12-near-one.csv"] {
-        let (mut people, of) = (people(name), wobble(people(name)));
+        let (mut people, of) = (people(name), same_side_bias(people(name)));
         people.reverse();
-        assert_eq!(wobble(people.clone()), of, "{name}");
-        let other = wobble(people.into_iter().map(|(same, tosses)| (tosses - same, tosses)));
+        assert_eq!(same_side_bias(people.clone()), of, "{name}");
+        let other = same_side_bias(people.into_iter().map(|(same, tosses)| (tosses - same, tosses)));
         for (one, other) in [(of.interval, other.interval), (of.next_person.unwrap(), other.next_person.unwrap())] {
             assert!((one.lo + other.hi - 1.0).abs() < 1e-7 && (one.hi + other.lo - 1.0).abs() < 1e-7, "{name}");
         }
@@ -176,7 +176,7 @@ fn intervals_of_people_hold_their_mean() {
     for (mean, sd, tosses, is_lucky, files) in cells {
         let mut drawn = Drawn::new(mean, sd, &tosses);
         let found = std::iter::repeat_with(|| drawn.file()).filter(|people| !is_lucky || agree(people)).take(files);
-        let held = found.filter(|people| wobble(people.iter().copied()).interval.contains(mean)).count();
+        let held = found.filter(|people| same_side_bias(people.iter().copied()).interval.contains(mean)).count();
         assert!(20 * held >= 19 * files, "{mean} ± {sd}, {tosses:?}: {held} of {files}");
     }
 }
@@ -194,7 +194,7 @@ fn every_file_has_an_answer_that_makes_sense() {
     for case in 0..400 {
         let people: Vec<(u64, u64)> =
             std::iter::repeat_with(&mut one).take(1 + case % 9).chain([(case as u64 % 2, 1)]).collect();
-        let found = wobble(people.iter().copied());
+        let found = same_side_bias(people.iter().copied());
         let is_within = |value: f64, interval: Interval| {
             interval.contains(value) && interval.lo >= 0.0 && interval.hi <= 1.0 && interval.lo <= interval.hi
         };

@@ -11,7 +11,7 @@
 //! same side     0.5077, ψ = 81.2°
 //! all alike     0.5060 to 0.5094, ψ = 80.3° to 82.2° (95 %)
 //! 48 people     0.5044 to 0.5157, ψ = 77.5° to 83.3° (95 %)
-//! the wobbliest 0.6007, ψ = 60.8°
+//! the most biased 0.6007, ψ = 60.8°
 //! a US quarter  0.5075 ± 0.0005, 4000000 launches with that ψ
 //! ```
 //!
@@ -26,7 +26,7 @@
 //! `cargo run --release -p toss --example human`
 
 use toss::catalogue::named_coin;
-use toss::sampling::{Axis, Estimate, Plan, SameSide, Sampler, Space, Wobble, rate_ratio};
+use toss::sampling::{Axis, Estimate, Plan, SameSide, SameSideBias, Sampler, Space, rate_ratio};
 
 /// For each person, the number of flips that landed on the side they started from (data set dat.bartos2023 of the R
 /// package metadat).
@@ -45,15 +45,15 @@ const FLIPS: [u32; 48] = [
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let counts = SAME.iter().zip(FLIPS).map(|(same, flips)| SameSide::new((*same).into(), flips.into()));
     let people = counts.collect::<Result<Vec<SameSide>, _>>()?;
-    let apart = Wobble::of(&people)?;
-    let (share, together) = (apart.share, Wobble::of(&[apart.counts])?);
+    let apart = SameSideBias::of(&people)?;
+    let (share, together) = (apart.share, SameSideBias::of(&[apart.counts])?);
     assert_eq!(apart.counts, SameSide::new(178_078, 350_757)?);
     println!("same side     {share:.4}, ψ = {:.1}°", degrees(together.cone.map(|cone| cone.angle)));
     println!("all alike     {}", text(&together));
     println!("48 people     {}", text(&apart));
-    let alone = people.iter().map(|person| Wobble::of(&[*person])).collect::<Result<Vec<_>, _>>()?;
+    let alone = people.iter().map(|person| SameSideBias::of(&[*person])).collect::<Result<Vec<_>, _>>()?;
     let most = alone.iter().max_by(|one, other| one.share.total_cmp(&other.share)).ok_or("there are people")?;
-    println!("the wobbliest {:.4}, ψ = {:.1}°", most.share, degrees(most.cone.map(|cone| cone.angle)));
+    println!("the most biased {:.4}, ψ = {:.1}°", most.share, degrees(most.cone.map(|cone| cone.angle)));
 
     let sample = of_a_quarter(share)?;
     let half_width = sample.half_width().ok_or("a sample has an interval")?;
@@ -75,12 +75,12 @@ fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
 }
 
 /// The interval of the share with that of the angles. A smaller angle ψ belongs to a larger share.
-fn text(found: &Wobble) -> String {
+fn text(found: &SameSideBias) -> String {
     let [least, most] = [0, 1].map(|end| degrees(found.cone.map(|cone| cone.interval[end])));
     format!("{:.4} to {:.4}, ψ = {least:.1}° to {most:.1}° (95 %)", found.interval.lo, found.interval.hi)
 }
 
-/// An angle in degrees; not a number where no wobble explains the counts.
+/// An angle in degrees; not a number where no ψ explains the counts.
 fn degrees(angle: Option<f64>) -> f64 {
     angle.map_or(f64::NAN, f64::to_degrees)
 }

@@ -168,7 +168,7 @@ fn enclosure_is_never_planned() {
             "takes a time that is not known before, and has to be chosen by hand"
         );
     }
-    let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap());
+    let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap()).unwrap();
     let decision = Scene::new(Want::Probability(body), 1e-2).plan().unwrap();
     let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
     assert_eq!(reason.unwrap().1.to_string(), "is for coins, with I1 = I2");

@@ -9,9 +9,9 @@ from . import errors, given
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
-from .results import DenseOutput, Intervals, Inverse, Landing, Margins, PeopleSpread, Solution, Trace, Wobble, Work
+from .results import DenseOutput, Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Solution, Trace, Work
 from .sampling import Estimate, estimate, merge, probability
-from .single import intervals, inverse, margins, rate_of_precession, toss, trace, wobble
+from .single import intervals, inverse, margins, power, rate_of_precession, same_side_bias, toss, trace
 from .solving import solve
 from .tallies import tally
 
@@ -27,13 +27,14 @@ __all__ = [
     "Margins",
     "PeopleSpread",
     "Plan",
+    "Power",
+    "SameSideBias",
     "Solution",
     "Solver",
     "Space",
     "Tally",
     "Toss",
     "Trace",
-    "Wobble",
     "Work",
     "__version__",
     "attitude",
@@ -48,15 +49,16 @@ __all__ = [
     "merge",
     "outcome",
     "plan",
+    "power",
     "probability",
     "rate_of_precession",
+    "same_side_bias",
     "solve",
     "solvers",
     "spaces",
     "tally",
     "toss",
     "trace",
-    "wobble",
 ]
 
 given.suggest(globals())

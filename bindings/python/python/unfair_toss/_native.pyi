@@ -26,14 +26,15 @@ __all__ = [
     "number",
     "numbers",
     "plan",
+    "power",
     "rate_of_precession",
+    "same_side_bias",
     "solve",
     "solvers",
     "spaces",
     "tally",
     "trace",
     "unit_of",
-    "wobble",
 ]
 
 __version__: str
@@ -155,9 +156,11 @@ class Space:
     def __new__(
         cls,
         *,
-        rate_x: _Axis,
-        rate_y: _Axis,
-        rate_z: _Axis,
+        rate_x: _Axis | None = None,
+        rate_y: _Axis | None = None,
+        rate_z: _Axis | None = None,
+        turn: _Axis | None = None,
+        psi: _Axis | None = None,
         speed: _Axis,
         gravity: _Axis | None = None,
         tilt: _Axis | None = None,
@@ -229,8 +232,9 @@ def land(toss: Toss, solver: str | Solver) -> _Fields: ...
 def margins(toss: Toss) -> _Fields: ...
 def intervals(toss: Toss, slowest: float) -> list[list[float]]: ...
 def inverse(probability: float, body: str | Body) -> tuple[float, float, float]: ...
-def rate_of_precession(turn: _Quantity, wobble: _Quantity, body: str | Body) -> tuple[float, float, float]: ...
-def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body) -> _Fields: ...
+def rate_of_precession(turn: _Quantity, psi: _Quantity, body: str | Body) -> tuple[float, float, float]: ...
+def power(share: float, sd: float, power: float, people: int | None, flips: int | None) -> _Fields: ...
+def same_side_bias(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body) -> _Fields: ...
 def trace(
     toss: Toss, points: int | None, dt: _Quantity | None, solver: str | Solver
 ) -> npt.NDArray[np.float64]: ...

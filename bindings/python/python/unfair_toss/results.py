@@ -313,8 +313,8 @@ class PeopleSpread(ShownAsTable):
 
 
 @dataclass(frozen=True, eq=False)
-class Wobble(ShownAsTable, _HoldsArrays):
-    """The wobble that explains counts. Intervals are at a level of 95 %.
+class SameSideBias(ShownAsTable, _HoldsArrays):
+    """How often coins land on the side that had been up, and the angle ψ that explains it. Intervals are at a level of 95 %.
 
     Attributes
     ----------
@@ -340,11 +340,11 @@ class Wobble(ShownAsTable, _HoldsArrays):
         √(ωx² + ωy²)/ωz; None for a mean of ½ or less, at which the coin does not spin.
     cone_angle : float or None
         Angle ψ between the normal and the angular momentum in rad; π/2 for a mean of ½ or less, and None if the whole
-        interval is below ½, which no wobble explains.
+        interval is below ½, which no ψ explains.
     cone_angle_interval : tuple of 2 floats or None
         The smallest and the largest ψ that have a mean in the interval, in rad.
     each_cone_angle : ndarray of shape (n,)
-        ψ of each person alone in rad; NaN without a toss, and where no wobble explains the counts.
+        ψ of each person alone in rad; NaN without a toss, and where no ψ explains the counts.
     each_cone_angle_interval : ndarray of shape (n, 2)
         Its interval.
     """
@@ -364,6 +364,31 @@ class Wobble(ShownAsTable, _HoldsArrays):
     cone_angle_interval: tuple[float, float] | None
     each_cone_angle: npt.NDArray[np.float64]
     each_cone_angle_interval: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Power(ShownAsTable):
+    """What it takes to see a same-side share.
+
+    Attributes
+    ----------
+    flips_of_one : float
+        Flips that one hand needs.
+    people_needed : float or None
+        People that are needed with these flips of each; None if the flips were not given.
+    flips_needed : float or None
+        Flips of each that these people need; None if no number suffices, or the people were not given.
+    chance : float or None
+        How probable it is that the interval of these people with these flips leaves out ½; None unless both were given.
+    least_share : float or None
+        The least share that they find with the wanted power; likewise, and None if they find none.
+    """
+
+    flips_of_one: float
+    people_needed: float | None
+    flips_needed: float | None
+    chance: float | None
+    least_share: float | None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .labels import combined
-from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work, fastest_turn
+from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Trace, Work, fastest_turn
 from .units import Quantity
 
 
@@ -147,14 +147,50 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     return Inverse(wanted, *_native.inverse(wanted, body))
 
 
-def rate_of_precession(turn: Quantity, wobble: Quantity, body: str | Body = "paper") -> tuple[float, float, float]:
-    """The angular velocity of a coin by what can be seen: how fast it turns, and how far it wobbles.
+def power(
+    share: float = 0.508, sd: float = 0.016, power: float = 0.8, *, people: int | None = None, flips: int | None = None
+) -> Power:
+    """How many flips and people it takes to see that coins land more often on the side that had been up.
+
+    Parameters
+    ----------
+    share : float
+        The share that shall be told from ½.
+    sd : float
+        Standard deviation of the probability between people; that of 48 people was 0.016.
+    power : float
+        How surely the interval of ``same_side_bias`` shall leave out ½, from 0.5 to 0.9999.
+    people : int, optional
+        Number of people, at least 2.
+    flips : int, optional
+        Flips of each of them.
+
+    Returns
+    -------
+    Power
+        The same numbers as ``unfair-toss power --format json``, right to about 2 %.
+
+    Raises
+    ------
+    errors.InputError
+        For a number outside its range.
+
+    Examples
+    --------
+    >>> ut.power(flips=200).people_needed
+    216.0
+    """
+    return Power(**_native.power(share, sd, power, people, flips))
+
+
+def rate_of_precession(turn: Quantity, psi: Quantity, body: str | Body = "paper") -> tuple[float, float, float]:
+    """The angular velocity of a coin by what can be seen: how fast its normal n turns, and the angle ψ.
 
     Parameters
     ----------
     turn : float or str
         How fast the normal goes round the angular momentum, in rad/s or as in ``"38rev/s"``.
-    wobble : float or str
+    psi : float or str
         The angle ψ between the two, from 0 to π, in rad or as in ``"81deg"``.
     body : str or Body
         A symmetric body.
@@ -162,7 +198,7 @@ def rate_of_precession(turn: Quantity, wobble: Quantity, body: str | Body = "pap
     Returns
     -------
     tuple of 3 floats
-        The rate in rad/s along the axes of the body, as of ``--turn`` and ``--wobble`` of ``unfair-toss``, to the bit. The
+        The rate in rad/s along the axes of the body, as of ``--turn`` and ``--psi`` of ``unfair-toss``, to the bit. The
         part across the normal is put along x.
 
     Raises
@@ -176,11 +212,11 @@ def rate_of_precession(turn: Quantity, wobble: Quantity, body: str | Body = "pap
     >>> ut.toss(ut.Toss(rate, speed=2.4, body="us-quarter")).outcome
     'tails'
     """
-    return _native.rate_of_precession(turn, wobble, body)
+    return _native.rate_of_precession(turn, psi, body)
 
 
-def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
-    """The wobble that explains how often coins landed on the side that had been up.
+def same_side_bias(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> SameSideBias:
+    """The angle ψ that explains how often coins landed on the side that had been up.
 
     It assumes independent flips and long flights from horizontal, all with the same angle ψ; 180° - ψ explains the
     counts as well. People differ, so ψ is that of the mean over people, who are the sample of its interval. One person
@@ -197,7 +233,7 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
 
     Returns
     -------
-    Wobble
+    SameSideBias
         The same numbers as ``unfair-toss inverse --counts --format json``, to the bit.
 
     Raises
@@ -209,11 +245,11 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     --------
     The flips of F. Bartoš et al., arXiv 2310.04153:
 
-    >>> round(np.degrees(ut.wobble(178078, 350757).cone_angle), 2)
+    >>> round(np.degrees(ut.same_side_bias(178078, 350757).cone_angle), 2)
     81.16
     """
     counts, _ = combined({"same_side": same_side, "tosses": tosses})
-    found = _native.wobble(**counts, body=body)
+    found = _native.same_side_bias(**counts, body=body)
     spread = found["spread"] and PeopleSpread(**found["spread"])
     arrays = {name: np.array(found[name]) for name in ("each_cone_angle", "each_cone_angle_interval")}
-    return Wobble(**found | arrays | {"spread": spread})
+    return SameSideBias(**found | arrays | {"spread": spread})

@@ -4,9 +4,11 @@ mod errors;
 mod flight;
 mod limit;
 mod map;
+mod people;
 mod solid;
 
 pub(crate) use errors::{ErrorLine, Reference, errors};
 pub(crate) use flight::{flight, named, points_to_draw};
 pub(crate) use limit::limit;
 pub(crate) use map::map;
+pub(crate) use people::{MOST_PEOPLE, people};

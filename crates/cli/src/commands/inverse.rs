@@ -1,16 +1,17 @@
 //! `unfair-toss inverse` computes how to launch a coin so that it lands heads with a wanted probability in long flights, or how
-//! coins wobbled that landed so often on the side that had been up. The result is the ratio of the tumbling rate Ω to the spin
+//! coins were thrown that landed so often on the side that had been up. The result is the ratio of the tumbling rate Ω to the spin
 //! ωz, and the angle ψ between the normal and the angular momentum.
 
 use std::path::Path;
 
 use dynamics::quantity::read_count;
-use sampling::{Cone, FEW_PEOPLE, Interval, SameSide, Spread, Wobble, long_flight_cone, rate_ratio};
+use sampling::{Cone, FEW_PEOPLE, Interval, SameSide, SameSideBias, Spread, long_flight_cone, rate_ratio};
 use serde::Serialize;
 use toss::{Coin, InputError};
 
+use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, FormatArgs, Input, row, table};
+use crate::output::{self, ChartArgs, Format, FormatArgs, Input, row, table};
 use crate::people_file::{self, Named};
 use crate::quantity;
 use crate::toss_args::CoinArgs;
@@ -27,6 +28,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K/N|FILE.csv", allow_hyphen_values = true, conflicts_with = "probability")]
     counts: Option<String>,
     #[command(flatten)]
+    chart: ChartArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -37,17 +40,17 @@ struct Rates {
     inertia_ratio: f64,
     /// Ω/ωz; `None` for a mean share of ½ or less, which needs ωz = 0.
     rate_ratio: Option<f64>,
-    /// ψ (rad); `None` if no wobble explains the counts.
+    /// ψ (rad); `None` if no ψ explains the counts.
     cone_angle: Option<f64>,
     #[serde(flatten)]
     counted: Option<Counted>,
 }
 
-/// What is known of people and of a wobble from counts.
+/// What is known of people and of ψ from counts.
 #[derive(Serialize)]
 struct Counted {
     #[serde(flatten)]
-    wobble: Wobble,
+    found: SameSideBias,
     people: Vec<Person>,
     /// How many people tossed nothing.
     absent: usize,
@@ -60,7 +63,10 @@ struct Person {
     #[serde(flatten)]
     counts: SameSide,
     probability: f64,
-    /// ψ and its interval (rad); `None` if no wobble explains the counts.
+    /// The interval of the probability.
+    #[serde(skip)]
+    interval: Interval,
+    /// ψ and its interval (rad); `None` if no ψ explains the counts.
     cone_angle: Option<f64>,
     cone_angle_interval: Option<[f64; 2]>,
 }
@@ -68,12 +74,17 @@ struct Person {
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let coin = self.coin.coin()?;
+        self.chart.validate(self.format.format == Format::Json)?;
+        if self.chart.is_some() && self.counts.is_none() {
+            return Err(Failure::usage("svg", "--svg draws the counts of people: it needs --counts"));
+        }
         let rates = match (&self.counts, self.probability) {
             (Some(counts), _) => Rates::counted(coin, &people(counts)?)?,
             (None, wanted) => Rates::wanted(coin, wanted.unwrap_or(f64::NAN))?,
         };
         let is_of_a_coin = self.coin.given_body()?.is_some();
-        Ok(self.format.print(input, &rates, || rates.text(is_of_a_coin)))
+        let print = || self.format.print(input, &rates, || rates.text(is_of_a_coin));
+        self.chart.answer(print, || rates.drawn())
     }
 }
 
@@ -100,15 +111,27 @@ impl Rates {
 
     fn counted(coin: Coin, people: &[Named]) -> Result<Self, Failure> {
         let counts: Vec<SameSide> = people.iter().map(|person| person.counts).collect();
-        let wobble = Wobble::of(&counts).map_err(|source| Failure::value("counts", source))?;
-        let (probability, inertia_ratio) = (wobble.share, coin.inertia_ratio());
-        let rate_ratio = (wobble.mean > 0.5).then(|| rate_ratio(wobble.mean, inertia_ratio)).transpose()?;
-        let cone_angle = wobble.cone.map(|cone| cone.angle);
-        let absent = people.len() - wobble.people;
+        let found = SameSideBias::of(&counts).map_err(|source| Failure::value("counts", source))?;
+        let (probability, inertia_ratio) = (found.share, coin.inertia_ratio());
+        let rate_ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose()?;
+        let cone_angle = found.cone.map(|cone| cone.angle);
+        let absent = people.len() - found.people;
         let present = people.iter().filter(|person| person.counts.tosses() > 0);
-        let people = if wobble.people > 1 { present.map(Person::new).collect() } else { Vec::new() };
-        let counted = Some(Counted { wobble, people, absent });
+        let people = if found.people > 1 { present.map(Person::new).collect() } else { Vec::new() };
+        let counted = Some(Counted { found, people, absent });
         Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted })
+    }
+
+    /// The forest plot of the counts.
+    fn drawn(&self) -> Result<String, Failure> {
+        let counted = self.counted.as_ref().ok_or_else(|| Failure::usage("svg", "--svg needs --counts"))?;
+        if counted.people.len() > chart::MOST_PEOPLE {
+            let (people, most) = (counted.people.len(), chart::MOST_PEOPLE);
+            return Err(Failure::usage("svg", format!("--svg: a picture of {people} people: at most {most}")));
+        }
+        let rows: Vec<_> =
+            counted.people.iter().map(|person| (person.person.as_str(), person.counts, person.interval)).collect();
+        Ok(chart::people(&counted.found, &rows)?)
     }
 
     /// `is_of_a_coin`: whether the coin was given. ψ is the same for all coins, the ratio of the rates is not.
@@ -121,10 +144,10 @@ impl Rates {
             let angle = self.cone_angle.map(|angle| format!("ψ            {}°", angle.to_degrees()));
             return [Some(wanted), ratio, angle, Some(coin)].into_iter().flatten().collect::<Vec<_>>().join("\n");
         };
-        let Wobble { counts, .. } = &counted.wobble;
+        let SameSideBias { counts, .. } = &counted.found;
         let mut lines = vec![format!("same side    {} of {}, {probability:.6}", counts.same(), counts.tosses())];
         lines.extend(counted.shares());
-        lines.push(format!("ψ            {}", angle(&counted.wobble)));
+        lines.push(format!("ψ            {}", angle(&counted.found)));
         lines.extend(ratio.filter(|_| is_of_a_coin).map(|ratio| [ratio, coin]).into_iter().flatten());
         lines.push(
             "assumed      independent flips; long flights from horizontal, all with this ψ; 180° - ψ explains them as well"
@@ -137,9 +160,9 @@ impl Rates {
 }
 
 /// ψ with its interval. At a share of ½ or less it is 90°, and at 1 any angle up to 45° serves.
-fn angle(&Wobble { cone, mean, interval, .. }: &Wobble) -> String {
+fn angle(&SameSideBias { cone, mean, interval, .. }: &SameSideBias) -> String {
     let Some(Cone { angle, interval: ends }) = cone else {
-        return "none: no wobble explains this, as the whole interval is below 1/2".to_owned();
+        return "none: no ψ explains this, as the whole interval is below 1/2".to_owned();
     };
     let (angle, [least, most]) = (angle.to_degrees(), ends.map(f64::to_degrees));
     match mean {
@@ -155,8 +178,9 @@ fn angle(&Wobble { cone, mean, interval, .. }: &Wobble) -> String {
 impl Counted {
     /// The lines about the shares of these people, of all, and of a further one.
     fn shares(&self) -> Vec<String> {
-        let Wobble { these_flips, mean, interval: Interval { lo, hi }, interval_kind, spread, next_person, .. } =
-            &self.wobble;
+        let SameSideBias {
+            these_flips, mean, interval: Interval { lo, hi }, interval_kind, spread, next_person, ..
+        } = &self.found;
         let number = self.people.len();
         if number == 0 {
             return vec![format!("interval     {lo:.6} to {hi:.6} ({interval_kind})")];
@@ -212,11 +236,13 @@ impl Counted {
 
 impl Person {
     fn new(Named { name, counts }: &Named) -> Self {
-        let cone: Option<Cone> = Wobble::of(&[*counts]).ok().and_then(|found| found.cone);
+        let alone = SameSideBias::of(&[*counts]).ok();
+        let cone: Option<Cone> = alone.as_ref().and_then(|found| found.cone);
         Self {
             person: name.clone(),
             counts: *counts,
             probability: counts.share(),
+            interval: alone.map_or(Interval { lo: 0.0, hi: 1.0 }, |found| found.interval),
             cone_angle: cone.map(|cone| cone.angle),
             cone_angle_interval: cone.map(|cone| cone.interval),
         }

@@ -135,11 +135,11 @@ pub(crate) fn spaces(args: &Args, input: &Input) -> Result<String, Failure> {
     let mut lines = Vec::new();
     for (name, DescribedSpace { description, space }) in named_spaces() {
         let [rate_x, rate_y, rate_z, speed, gravity, tilt] =
-            Coordinate::ALL.map(|of| space.axis_or_tie(of).to_string());
+            Coordinate::OF_LAUNCH.map(|of| space.axis_or_tie(of).map_or_else(String::new, |axis| axis.to_string()));
         let grid_points = space.grid_points()?;
         lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points });
     }
-    let [x, y, z, v, g, t] = Coordinate::ALL.map(Coordinate::symbol);
+    let [x, y, z, v, g, t] = Coordinate::OF_LAUNCH.map(Coordinate::symbol);
     let cells = |line: &SpaceLine| {
         let SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points } = line;
         let points = grid_points.to_string();

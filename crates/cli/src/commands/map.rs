@@ -17,7 +17,7 @@ use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few}
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Coordinate along a row: rate_x, rate_y, rate_z, speed, gravity or tilt; its axis needs points
+    /// Coordinate along a row: rate_x, rate_y, rate_z, turn, psi, speed, gravity or tilt; its axis needs points
     #[arg(long, value_name = "COORDINATE", default_value = "rate_x")]
     across: String,
     /// Coordinate from row to row, likewise

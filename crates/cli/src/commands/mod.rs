@@ -11,6 +11,7 @@ pub(crate) mod list;
 pub(crate) mod map;
 pub(crate) mod parts;
 pub(crate) mod plan;
+pub(crate) mod power;
 pub(crate) mod probability;
 pub(crate) mod sample;
 pub(crate) mod shell;

@@ -32,7 +32,7 @@ pub(crate) struct Args {
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml. Options of the coin replace its body
     #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
+          conflicts_with_all = ["rate", "turn", "psi", "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     space: Option<String>,
     #[arg(long, value_name = "NAME")]
     solver: Option<String>,
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     prove: bool,
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
-          conflicts_with_all = ["want", "accuracy", "space", "solver", "scheme", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "scheme", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "psi",
                                 "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     scene: Option<PathBuf>,
     #[command(flatten)]

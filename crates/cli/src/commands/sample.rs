@@ -30,14 +30,14 @@ const CHUNK: usize = 1 << 14;
 
 /// Options that describe launches, which `-` reads instead.
 const OF_A_SPACE: [&str; 14] = [
-    "space", "rate_x", "rate_y", "rate_z", "turn", "wobble", "speed", "gravity", "tilt", "drop", "spread", "points",
+    "space", "rate_x", "rate_y", "rate_z", "turn", "psi", "speed", "gravity", "tilt", "drop", "spread", "points",
     "method", "seed",
 ];
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// With - the launches are read from standard input: CSV with a heading, whose columns are wx, wy, wz or turn and
-    /// wobble, speed or time, and if wanted gravity, drop and tilt
+    /// psi, speed or time, and if wanted gravity, drop and tilt
     #[arg(value_name = "-", value_parser = ["-"], conflicts_with_all = OF_A_SPACE)]
     from: Option<String>,
     #[command(flatten)]
@@ -288,7 +288,7 @@ const COLUMNS: [Field; 10] = [
     Field::RateY,
     Field::RateZ,
     Field::Turn,
-    Field::Wobble,
+    Field::Psi,
     Field::Speed,
     Field::Time,
     Field::Gravity,
@@ -318,7 +318,7 @@ fn columns(heading: &Cells) -> Result<Vec<Option<Field>>, Failure> {
         columns.push(known);
     }
     let lacks = |field: &Field| !columns.contains(&Some(*field));
-    let of_precession = [Field::Turn, Field::Wobble];
+    let of_precession = [Field::Turn, Field::Psi];
     let axes = [Field::RateX, Field::RateY, Field::RateZ];
     let rate = if of_precession.iter().all(lacks) { &axes[..] } else { &of_precession };
     let missing = rate.iter().find(|field| lacks(field)).map(|field| field.info().name);

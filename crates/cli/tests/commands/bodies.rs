@@ -16,7 +16,7 @@ fn no_command_takes_a_body_for_a_coin() {
         (format!("spread {toss} --heads 0.6 --points 64"), true),
         (format!("plan {toss} --want tilt --accuracy 1e-3"), true),
         (format!("plan {toss} --want tilt --accuracy 1e-3 --solver quaternion"), true),
-        ("toss --turn 20 --wobble 1 --speed 3".to_owned(), false),
+        ("toss --turn 20 --psi 1 --speed 3".to_owned(), false),
         ("intervals --rate 20,5,3 --speed 3:4".to_owned(), true),
         ("inverse --probability 0.7".to_owned(), false),
         ("limit --points 9".to_owned(), false),

@@ -93,9 +93,9 @@ fn every_turn_is_drawn_whatever_number_of_points_is_printed() {
 #[test]
 fn a_flight_of_many_turns_is_drawn_as_the_band_that_it_fills() {
     for (flight, [low, high]) in [
-        ("--turn 100000rev/s --wobble 80deg --time 1", [-0.94, 1.0]),
-        ("--turn 1000rev/s --wobble 30deg --time 1", [0.5, 1.0]),
-        ("--turn 61rev/s --wobble 90deg --time 1", [-1.0, 1.0]),
+        ("--turn 100000rev/s --psi 80deg --time 1", [-0.94, 1.0]),
+        ("--turn 1000rev/s --psi 30deg --time 1", [0.5, 1.0]),
+        ("--turn 61rev/s --psi 90deg --time 1", [-1.0, 1.0]),
         ("--coin racket --rate 300,900,40 --time 1", [-1.0, 1.0]),
     ] {
         let drawn = svg(&format!("trace {flight} --points 2"));
@@ -139,7 +139,7 @@ fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
         ("trace --rate 38rev/s,1rpm,5rev/s --speed 3", "launched horizontally, ω = (38 rev/s, 1 rpm, 5 rev/s)"),
         ("trace --rate 38rev/s,0rev/s,5rev/s --speed 3", "ω = (38, 0, 5) rev/s: the coin lands "),
         (
-            "trace --turn 38rev/s --wobble 60deg --tilt 15deg --speed 3",
+            "trace --turn 38rev/s --psi 60deg --tilt 15deg --speed 3",
             "at a tilt of 15 deg, n turns at 38 rev/s, ψ = 60 deg",
         ),
         ("trace --rate 1,2,3 --speed 3 --solver quaternion --scheme taylor", "solver quaternion, taylor"),

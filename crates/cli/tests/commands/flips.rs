@@ -27,7 +27,7 @@ fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
 }
 
 #[test]
-fn a_wobble_explains_counts_of_one_hand_and_of_people() {
+fn an_angle_explains_counts_of_one_hand_and_of_people() {
     // The flips of F. Bartoš et al., arXiv 2310.04153.
     let all = json("inverse --counts 178078/350757", 0);
     assert_near(&all["probability"], 178_078.0 / 350_757.0, 1e-16);
@@ -70,7 +70,7 @@ fn a_wobble_explains_counts_of_one_hand_and_of_people() {
 }
 
 #[test]
-fn an_interval_below_a_half_has_no_wobble_and_an_absent_person_is_named() {
+fn an_interval_below_a_half_has_no_angle_and_an_absent_person_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("people.csv");
     let counts = format!("inverse --counts {}", path.display());
@@ -80,7 +80,7 @@ fn an_interval_below_a_half_has_no_wobble_and_an_absent_person_is_named() {
     assert_eq!((&few["absent"], few["people"][0]["tosses"].as_u64()), (&1.into(), Some(1010)));
     let text = stdout(&run(&counts));
     for line in [
-        "ψ            none: no wobble explains this",
+        "ψ            none: no ψ explains this",
         "note         1 person is passed over, without a toss",
         "note         3 people say little about others",
     ] {

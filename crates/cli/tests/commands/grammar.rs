@@ -41,8 +41,8 @@ fn others(command: &str, option: &str) -> Vec<String> {
     let rates = "--rate --rate-x --rate-y --rate-z";
     // What is left out, and what stands in its place.
     let (without, with) = match (command, option) {
-        (_, "turn") => (rates, "--wobble 1"),
-        (_, "wobble") => (rates, "--turn 1"),
+        (_, "turn") => (rates, "--psi 1"),
+        (_, "psi") => (rates, "--turn 1"),
         (_, "time") => ("--speed", ""),
         (_, "counts") => ("--probability", ""),
         ("plan", "scene") => ("--rate --speed --want --accuracy", ""),
@@ -206,8 +206,8 @@ fn counts_fractions_and_coordinates_may_be_written_in_any_of_their_forms() {
         assert_eq!(answer(one), answer(other), "{one}");
     }
     let map = |names: &str| stdout(&run(&format!("map --rate-x 0:9:3 --rate-y 0 --rate-z 0:9:3 --speed 3 {names}")));
-    let turned = stderr(&run("map --turn 38rev/s --wobble 60deg --speed 2:3:4 --up speed --spread 1%"));
-    assert!(turned.contains("--turn and --wobble fix rate_x: a map of it needs --rate-x"), "{turned}");
+    let turned = stderr(&run("map --turn 38rev/s --psi 60deg --speed 2:3:4 --up speed --spread 1%"));
+    assert!(turned.contains("--turn and --psi fix rate_x: a map of it needs --rate-x"), "{turned}");
     assert_eq!(map("--across rate-z --up rate-x"), map("--across rate_z --up rate_x"));
     assert!(map("--across rate-z --up rate-x").starts_with("rate_z,rate_x,probability\n"));
     let grid = |points: &str| {

@@ -6,7 +6,7 @@ use toss::Registry;
 
 /// The commands in the order in which the help text lists them.
 const COMMANDS: &str = "toss trace probability sample compare spread convergence \
-     errors map merge intervals inverse limit plan coins solvers models spaces completions man";
+     errors map merge intervals inverse power limit plan coins solvers models spaces completions man";
 
 #[test]
 fn the_example_of_every_help_text_runs() {
@@ -47,9 +47,7 @@ fn help_groups_its_options_and_shows_what_is_required() {
     for words in ["\nCoin (", "\nLaunch (", "\nSolver:", "\nOutput:", "Heads: ", "towards -y", "15deg"] {
         assert_eq!(toss.matches(words).count(), 1, "{words}");
     }
-    assert!(
-        toss.contains("Usage: unfair-toss toss (--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T)")
-    );
+    assert!(toss.contains("Usage: unfair-toss toss (--rate WX,WY,WZ | --turn RATE --psi PSI) (--speed V0 | --time T)"));
     // Every column that a table of data has is explained.
     for (command, run_of_it) in [
         ("trace", "trace --rate 1,1,1 --speed 3 --points 2"),
@@ -71,11 +69,11 @@ fn help_groups_its_options_and_shows_what_is_required() {
 fn completions_and_manual_pages_name_the_options() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = stdout(&run(&format!("completions {shell}")));
-        assert!(script.contains("wobble") && script.contains("spread"), "{shell}");
+        assert!(script.contains("psi") && script.contains("spread"), "{shell}");
     }
     assert!(stdout(&run("man")).contains(".TH unfair-toss 1"));
     let page = stdout(&run("man toss"));
-    assert!(page.contains("wobble") && page.contains("Heads: "), "{page}");
+    assert!(page.contains("psi") && page.contains("Heads: "), "{page}");
     for (arguments, words) in [
         ("man dance", ["command = 'dance'", "toss, trace"]),
         ("completions tcsh", ["invalid value 'tcsh'", "bash"]),
@@ -110,7 +108,7 @@ fn bash_completes_options_and_their_values() {
     for (line, expected) in [
         ("pro", "probability"),
         ("toss --tur", "--turn"),
-        ("toss --rate 1,2,3 --wob", "--wobble"),
+        ("toss --rate 1,2,3 --ps", "--psi"),
         ("toss --coin us-q", "us-quarter us-quarter-engraved"),
         ("probability --space pap", "paper-fig4"),
         ("toss --solver q", "quaternion"),

@@ -25,7 +25,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
         "toss",
         &[
             "--rate 1,1,2.5 --speed 3 --gravity 9.8 --drop 0.1 --tilt 0.1 --coin disc",
-            "--turn 38rev/s --wobble 60deg --speed 3 --drop 10cm",
+            "--turn 38rev/s --psi 60deg --speed 3 --drop 10cm",
             "--rate 2,2,0.5 --speed 3 --moments 1,1",
             "--rate 1,1,2.5 --time 1 --cylinder 1,1,1 --solver gamma --scheme rk4 --step 1e-3 --formulation vertical",
             "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
@@ -41,7 +41,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
         "trace",
         &[
             "--rate 1,1,2.5 --speed 3 --points 3",
-            "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove",
+            "--turn 3 --psi 1 --speed 3 --dt 0.3 --solver quaternion --prove",
             "--rate 1,1,2.5 --time 1 --dt 300ms",
         ],
     ),
@@ -55,8 +55,8 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method enclosure --accuracy 1e-6",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--space tails --method random --points 9 --seed 18446744073709551615",
-            "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
-            "--turn 30 --wobble 1 --speed 3 --spread 5% --accuracy 1e-2",
+            "--turn 30 --psi 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
+            "--turn 30 --psi 1 --speed 3 --spread 5% --accuracy 1e-2",
             "--rate-x 9 --rate-y 5 --rate-z 3 --speed 3:5 --method random --points 9 --solver quaternion --scheme rk4 --step 0.1",
         ],
     ),
@@ -100,6 +100,15 @@ const ANSWERS: &[(&str, &[&str])] = &[
     ),
     ("intervals", &["--rate 1,1,2 --speed 2:3", "--rate 2,2,0.5 --speed 3:5"]),
     ("inverse", &["--probability 0.7", "--probability 70%", "--counts 50/100", "--counts 9/100", "--counts PEOPLE"]),
+    (
+        "power",
+        &[
+            "--people 25 --flips 200",
+            "--people 30",
+            "--people 60",
+            "--share 70% --sd 0.4 --power 0.9 --people 2 --flips 9",
+        ],
+    ),
     ("limit", &["--points 9", "--points 2 --solver quaternion --scheme rk4 --step 0.01"]),
     (
         "plan",
@@ -166,13 +175,12 @@ fn input_is_repeated_as_it_was_given() {
     assert_eq!((&space["input"]["rate_x"], &space["input"]["points"]), (&"0:1".into(), &9.into()));
     assert_eq!(space["input"]["threads"], Value::Null);
     let typed =
-        json("toss --turn 38rev/s --wobble 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
-    let expected = r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"solver":"exact","speed":"2.4m/s","tilt":"15deg","turn":"38rev/s","wobble":1.0}"#;
+        json("toss --turn 38rev/s --psi 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
+    let expected = r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"psi":1.0,"solver":"exact","speed":"2.4m/s","tilt":"15deg","turn":"38rev/s"}"#;
     assert_eq!(typed.to_string(), expected);
     let typed =
-        json("probability --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"]
-            .clone();
-    let expected = r#"{"accuracy":0.01,"command":"probability","solver":"exact","speed":"2.4m/s","spread":0.05,"turn":"38rev/s","wobble":"60deg"}"#;
+        json("probability --turn 38rev/s --psi 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"].clone();
+    let expected = r#"{"accuracy":0.01,"command":"probability","psi":"60deg","solver":"exact","speed":"2.4m/s","spread":0.05,"turn":"38rev/s"}"#;
     assert_eq!(typed.to_string(), expected);
 }
 

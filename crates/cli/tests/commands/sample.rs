@@ -109,8 +109,8 @@ fn columns_are_found_by_their_heading_and_may_have_units() {
     assert_eq!((timed[0][3].as_str(), timed[0][4].as_str(), timed[0][5].as_str()), ("", "0.5", ""));
     assert_eq!((timed[1][3].as_str(), timed[1][4].as_str()), ("3.0", ""));
     assert_eq!(stdout(&fed("sample -", "wx,wy,wz,time\n")), format!("{HEADING}\n"));
-    let turned = stdout(&fed("sample - --coin us-quarter", "turn,wobble,speed\n38rev/s,60deg,2.4m/s\n"));
-    let toss = json("toss --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s", 0);
+    let turned = stdout(&fed("sample - --coin us-quarter", "turn,psi,speed\n38rev/s,60deg,2.4m/s\n"));
+    let toss = json("toss --coin us-quarter --turn 38rev/s --psi 60deg --speed 2.4m/s", 0);
     assert_eq!(rows(&turned)[0][9].parse::<f64>().unwrap(), toss["cos_tilt"].as_f64().unwrap());
     assert_eq!(stdout(&fed("sample - --coin us-quarter", &turned)), turned);
 }
@@ -129,8 +129,8 @@ fn mistakes_in_the_input_are_found_by_line_and_column() {
         (&format!("{good}1,1,2.5,-3\n"), 3, 4, "speed [m/s] = -3.0"),
         (&format!("{good}1,1,2.5,\n"), 3, 4, "speed is missing"),
         (&format!("{good}1,,2.5,3\n"), 3, 2, "rate y [rad/s] is missing"),
-        ("turn,speed\n", 1, 3, "column wobble is missing"),
-        ("turn,wobble,speed\n1,181deg,3\n", 2, 2, "wobble [rad] = 3.1"),
+        ("turn,speed\n", 1, 3, "column psi is missing"),
+        ("turn,psi,speed\n1,181deg,3\n", 2, 2, "psi [rad] = 3.1"),
         (&format!("{good}1,1,2.5\n"), 3, 1, "3 cells, but the heading has 4"),
         (&format!("{good}1,nan,2.5,3\n"), 3, 2, "rate y [rad/s] = NaN"),
         ("wx,wy,wz,speed,time\n1,1,1,1,1\n", 2, 5, "given twice"),

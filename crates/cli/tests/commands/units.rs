@@ -32,15 +32,15 @@ fn a_toss_is_the_same_in_any_units() {
 }
 
 #[test]
-fn turn_and_wobble_stand_for_the_rate_that_they_give() {
+fn turn_and_psi_stand_for_the_rate_that_they_give() {
     // ωL = 2π, ψ = 60°, k = 0.5: Ω = 2π sin 60° and ωz = 2π cos 60°/0.5 = 2π.
-    let seen = json("toss --turn 1rev/s --wobble 60deg --speed 3", 0);
+    let seen = json("toss --turn 1rev/s --psi 60deg --speed 3", 0);
     let rate = format!("toss --rate {},0,{} --speed 3", TAU * 0.75_f64.sqrt(), TAU);
     assert_near(&seen["cos_tilt"], json(&rate, 0)["cos_tilt"].as_f64().unwrap(), 1e-14);
     // cos θ = cos²ψ + sin²ψ cos(ωL T).
     let expected = 0.25 + 0.75 * (TAU * 6.0 / 9.81).cos();
     assert_near(&seen["cos_tilt"], expected, 1e-14);
-    assert_eq!((&seen["input"]["turn"], &seen["input"]["wobble"]), (&value!("1rev/s"), &value!("60deg")));
+    assert_eq!((&seen["input"]["turn"], &seen["input"]["psi"]), (&value!("1rev/s"), &value!("60deg")));
     let commands = [
         "trace --points 3 --speed 3",
         "plan --want tilt --accuracy 1e-9 --speed 3",
@@ -52,7 +52,7 @@ fn turn_and_wobble_stand_for_the_rate_that_they_give() {
         "map --speed 1:2:2 --tilt 0:1:2 --across speed --up tilt --method random --points 64",
     ];
     for command in commands {
-        let output = run(&format!("{command} --turn 1rev/s --wobble 60deg"));
+        let output = run(&format!("{command} --turn 1rev/s --psi 60deg"));
         assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
     }
 }
@@ -68,7 +68,7 @@ fn a_turn_is_said_as_it_was_understood() {
         "probability --speed 2:3 --method random --points 9 --solver quaternion --prove",
     ] {
         for (turn, words) in [("38", "6.05 rev/s = 38 rad/s"), ("38rev/s", "38 rev/s = 238.76 rad/s")] {
-            let text = stdout(&run(&format!("{command} --turn {turn} --wobble 60deg")));
+            let text = stdout(&run(&format!("{command} --turn {turn} --psi 60deg")));
             assert!(text.contains(&format!("\nturn         {words}\n")), "{command}: {text}");
         }
     }
@@ -92,15 +92,13 @@ fn an_outcome_is_proven_for_the_numbers_in_their_units_or_not_called_proven() {
         "--rate 0.25rev/s,0,0 --speed 0.05ft/s --gravity 0.1ft/s²",
         "--rate 0.25rev/s,0,0 --time 1000.0000000000001ms",
         "--rate 0.25rev/s,0rpm,1e-20rpm --time 1",
-        "--turn 0.25rev/s --wobble 90deg --time 1",
+        "--turn 0.25rev/s --psi 90deg --time 1",
     ] {
         assert!(!outcome(rounded).1, "{rounded}");
     }
-    for clear in [
-        "--rate 1,1,2.5 --speed 240cm/s",
-        "--turn 38rev/s --wobble 60deg --speed 2.4",
-        "--rate 10rev/s,3rpm,0 --speed 3",
-    ] {
+    for clear in
+        ["--rate 1,1,2.5 --speed 240cm/s", "--turn 38rev/s --psi 60deg --speed 2.4", "--rate 10rev/s,3rpm,0 --speed 3"]
+    {
         assert!(outcome(clear).1, "{clear}");
     }
 }

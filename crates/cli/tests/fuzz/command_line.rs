@@ -16,7 +16,7 @@ const CORE: &str = "rate speed time rate_x rate_y rate_z space scene want accura
 /// Options that contradict each other in a toss. The program refuses them where it reads the toss, so that the definition of its
 /// options does not know.
 const CONTRADICTIONS: [&str; 5] =
-    ["coin cylinder moments inertia", "rate turn", "rate wobble", "speed time", "tilt attitude"];
+    ["coin cylinder moments inertia", "rate turn", "rate psi", "speed time", "tilt attitude"];
 
 fn contradict(one: &Arg, other: &Arg) -> bool {
     let has = |names: &str, of: &Arg| names.split(' ').any(|name| of.get_id() == name);

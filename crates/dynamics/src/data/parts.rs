@@ -50,7 +50,7 @@ static ATTITUDE: Part = Part {
 /// The names of a launch, those of a precession first.
 const LAUNCH_FIELDS: &[&str] = &[
     "turn",
-    "wobble",
+    "psi",
     "rate",
     "speed",
     "gravity",
@@ -61,6 +61,7 @@ const LAUNCH_FIELDS: &[&str] = &[
     "unit_quaternion",
     "drag",
     "bounce",
+    "wobble",
 ];
 
 static LAUNCH_OF_BODY: Part = Part {

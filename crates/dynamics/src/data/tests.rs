@@ -155,7 +155,7 @@ fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in()
     for written in ["\"5.67g\"", "\"12.13mm\"", "\"2280.0rpm\"", "tilt = \"15.1deg\""] {
         assert!(text.contains(written), "{text}");
     }
-    let toss = read("coin = 'disc'\n[launch]\nturn = '6rad/s'\nwobble = 1\ntime = '500ms'").unwrap();
+    let toss = read("coin = 'disc'\n[launch]\nturn = '6rad/s'\npsi = 1\ntime = '500ms'").unwrap();
     assert_eq!(toss.launch.rate(), crate::rate_of_precession(&Coin::DISC, 6.0, 1.0).unwrap());
     let mixed =
         read("[launch]\nrate = ['2rev/s', 0, '3rev/s']\nspeed = '250cm/s'\ndrop = '-50mm'\ntilt = '3deg'").unwrap();

@@ -36,7 +36,7 @@ fn the_table_has_each_field_at_its_place_and_every_unit_in_words() {
 fn what_contradicts_itself_or_is_missing_is_refused_with_its_field() {
     let rate = "rate=1,1,2.5";
     for (text, message) in [
-        ("speed=3".to_owned(), "rate is missing: expected a rate, or turn with wobble"),
+        ("speed=3".to_owned(), "rate is missing: expected a rate, or turn with psi"),
         (rate.to_owned(), "speed is missing: expected a speed, or a time of flight"),
         (format!("{rate} gravity=9"), "speed is missing"),
         (format!("{rate} speed=3 time=1"), "time = 'given twice' can't be used: expected a time alone, without speed"),
@@ -47,14 +47,11 @@ fn what_contradicts_itself_or_is_missing_is_refused_with_its_field() {
         ("time=1 wx=1 wz=1".to_owned(), "rate y [rad/s] is missing: expected a number"),
         ("time=1 rate-y=1 wz=1".to_owned(), "rate x [rad/s] is missing"),
         ("time=1 rate_x=1 wy=1".to_owned(), "rate z [rad/s] is missing"),
-        (
-            format!("{rate} time=1 turn=3 wobble=1"),
-            "rate = 'given twice' can't be used: expected either a rate, or turn",
-        ),
-        (format!("{rate} time=1 wobble=1"), "rate = 'given twice'"),
-        ("time=1 wobble=1".to_owned(), "turn is missing"),
-        ("time=1 turn=1".to_owned(), "wobble is missing"),
-        ("time=1 turn=1 wobble=1 coin=racket".to_owned(), "turn is outside the model: n of a body with I1 ≠ I2"),
+        (format!("{rate} time=1 turn=3 psi=1"), "rate = 'given twice' can't be used: expected either a rate, or turn"),
+        (format!("{rate} time=1 psi=1"), "rate = 'given twice'"),
+        ("time=1 psi=1".to_owned(), "turn is missing"),
+        ("time=1 turn=1".to_owned(), "psi is missing"),
+        ("time=1 turn=1 psi=1 coin=racket".to_owned(), "turn is outside the model: n of a body with I1 ≠ I2"),
         (format!("{rate} time=1 coin=disc coin=disc"), "coin = 'given twice' can't be used: expected one value"),
         (format!("{rate} time=1 coin=disc inertia=1,1,1,0,0,0"), "coin = 'given twice' can't be used: expected one of"),
         (format!("{rate} time=1 moments=1,1 cylinder=1,1,1"), "cylinder = 'given twice'"),
@@ -89,9 +86,9 @@ fn a_toss_is_made_of_its_fields_in_their_units() {
     assert_eq!(found.launch.time_of_flight(), TimeOfFlight::thrown(2.5, DEFAULT_GRAVITY, Some(-0.05)));
     assert_eq!(found.launch.attitude().tilt().unwrap().radians(), Dimension::Angle.read("", "15deg").unwrap());
     assert_eq!(found.body.coin().unwrap().cylinder().unwrap()[1].value(), 12.13);
-    let precessing = toss("turn=6 wobble=60deg time=1 coin=disc").unwrap();
-    let wobble = Dimension::Angle.read("", "60deg").unwrap();
-    assert_eq!(precessing.launch.rate(), rate_of_precession(&Coin::DISC, 6.0, wobble).unwrap());
+    let precessing = toss("turn=6 psi=60deg time=1 coin=disc").unwrap();
+    let psi = Dimension::Angle.read("", "60deg").unwrap();
+    assert_eq!(precessing.launch.rate(), rate_of_precession(&Coin::DISC, 6.0, psi).unwrap());
     assert_eq!(toss("wx=1 wy=2 wz=3 time=1"), toss("rate=1,2,3 time=1"));
     assert_eq!(toss("rate=1,2,3 time=1").unwrap().body, Coin::PAPER.into());
     let in_si = thrown("rate=1rev/s,0,2rev/s time=500ms").unwrap().in_si();
@@ -104,7 +101,7 @@ fn what_is_rounded_is_known() {
         ("rate=1rev/s,0,2rev/s speed=2.5", false, false),
         ("rate=1rev/s,0,2rad/s speed=250cm/s", true, false),
         ("wx=1 wy=2 wz=2rad/s time=1.1ms", false, true),
-        ("turn=1 wobble=1 speed=1 gravity=1.1ft/s²", true, true),
+        ("turn=1 psi=1 speed=1 gravity=1.1ft/s²", true, true),
         ("rate=1,1,1 speed=1 drop=0.1in", false, true),
     ] {
         let thrown = thrown(text).unwrap();

@@ -90,14 +90,14 @@ fn every_point_is_on_the_edge_of_the_exact_motion() {
                 let value = |of: Coordinate| match space.axis_or_tie(of) {
                     _ if of == axes[0] => at.0,
                     _ if of == axes[1] => at.1,
-                    AxisOrTie::SameAs(partner) => {
+                    Some(AxisOrTie::SameAs(partner)) => {
                         if partner == axes[0] {
                             at.0
                         } else {
                             at.1
                         }
                     }
-                    AxisOrTie::Axis(axis) => axis.bounds()[0],
+                    _ => space.axis(of).bounds()[0],
                 };
                 let rate = Vector3::new(value(RateX), value(RateY), value(RateZ));
                 let least = if rate.norm() < 1e-9 { 0.0 } else { least_cos_tilt(coin, rate, tilt) };

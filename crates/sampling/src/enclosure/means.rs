@@ -103,7 +103,12 @@ impl<'a> Problem<'a> {
         }
         let value = |of: Coordinate| values[self.space.place(of) as usize];
         let rate = |of: Coordinate| value(of).times_power_of_two(-self.exponent);
-        let momentum = [rate(Coordinate::RateX), rate(Coordinate::RateY), rate(Coordinate::RateZ).scaled(&self.ratio)];
+        let momentum = if self.space.is_of_precession() {
+            let ([sin, cos], turn) = (value(Coordinate::Psi).sine_and_cosine(), rate(Coordinate::Turn));
+            [turn * sin, Jet::constant(exactly(0.0)), turn * cos]
+        } else {
+            [rate(Coordinate::RateX), rate(Coordinate::RateY), rate(Coordinate::RateZ).scaled(&self.ratio)]
+        };
         let twice = value(Coordinate::Gravity).reciprocal().times_power_of_two(1 + self.exponent);
         let times = self.space.axis(Coordinate::Speed).bounds().map(|speed| twice.scaled(&as_given(speed)));
         let tilt = if self.is_horizontal() {

@@ -8,14 +8,13 @@ use rand::{RngExt, TryRng};
 
 use super::*;
 
-const RANGES: [&str; Coordinate::COUNT] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1"];
-const NORMALS: [&str; Coordinate::COUNT] =
-    ["normal:0:5", "normal:1:2", "normal:-3:3", "normal:4:0.2", "normal:9:0.1", "normal:0:1"];
+const RANGES: [&str; 6] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1"];
+const NORMALS: [&str; 6] = ["normal:0:5", "normal:1:2", "normal:-3:3", "normal:4:0.2", "normal:9:0.1", "normal:0:1"];
 
 /// The space in which the coordinates of `free` vary as in `texts`.
-fn space(free: &[Coordinate], texts: [&str; Coordinate::COUNT]) -> Space {
+fn space(free: &[Coordinate], texts: [&str; 6]) -> Space {
     let text = |of: Coordinate| if free.contains(&of) { texts[of as usize] } else { "1" };
-    let texts: Vec<_> = Coordinate::ALL.into_iter().map(|of| (of, text(of))).collect();
+    let texts: Vec<_> = Coordinate::OF_LAUNCH.into_iter().map(|of| (of, text(of))).collect();
     Space::parse(Coin::PAPER, &texts).unwrap()
 }
 

@@ -1,8 +1,11 @@
 //! Tests of spaces: their coordinates, ties and drops, and what is refused.
 
-use Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use Coordinate::{Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
 
 use super::*;
+use crate::drawn::Drawn;
+use crate::plan::{Plan, Rest, Scrambled};
+use crate::sampler::Sampler;
 
 fn parse(texts: &[(Coordinate, &str)]) -> Result<Space, InputError> {
     Space::parse(Coin::PAPER, texts)
@@ -17,7 +20,7 @@ fn with(of: Coordinate, text: &'static str) -> Vec<(Coordinate, &'static str)> {
 #[test]
 fn a_tied_rate_follows_its_partner() {
     let space = parse(&BOX).unwrap();
-    let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0]).launch.rate();
+    let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0, 0.0, 0.0]).launch.rate();
     assert_eq!((rate.x, rate.y, rate.z), (12.5, 12.5, 30.0));
     assert_eq!(space.free().collect::<Vec<_>>(), [RateX, Speed]);
     let all_alike = parse(&[(RateX, "z"), (RateY, "z"), (RateZ, "1:2"), (Speed, "3")]).unwrap();
@@ -26,12 +29,12 @@ fn a_tied_rate_follows_its_partner() {
 
 #[test]
 fn with_body_keeps_the_launches() {
-    let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_body(Coin::DISC));
+    let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_body(Coin::DISC).unwrap());
     let toss = disc.toss(&paper.fixed_values());
     assert_eq!((toss.body, toss.launch), (Coin::DISC.into(), paper.toss(&paper.fixed_values()).launch));
     assert_ne!(paper.coin(), disc.coin());
     let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
-    let other = paper.with_body(body);
+    let other = paper.with_body(body).unwrap();
     assert_eq!((other.coin(), *other.body(), other.toss(&paper.fixed_values()).coin()), (None, body, None));
     assert_eq!(other.toss(&paper.fixed_values()), Toss { body, launch: toss.launch });
 }
@@ -39,7 +42,7 @@ fn with_body_keeps_the_launches() {
 #[test]
 fn launches_have_the_gravity_and_the_tilt() {
     let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
-    let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
+    let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5, 0.0, 0.0]);
     assert_eq!(toss.launch.flight_time(), 4.0);
     assert_eq!(toss.launch.attitude(), dynamics::Attitude::about_x(0.5));
 }
@@ -47,7 +50,7 @@ fn launches_have_the_gravity_and_the_tilt() {
 #[test]
 fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
     let space = parse(&BOX).unwrap().with_drop(Some(1.5)).unwrap();
-    let toss = space.with_body(Coin::DISC).toss(&space.fixed_values());
+    let toss = space.with_body(Coin::DISC).unwrap().toss(&space.fixed_values());
     let expected = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: 1.5 };
     assert_eq!(toss.launch.time_of_flight(), expected);
     assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(1.5));
@@ -71,6 +74,79 @@ fn axes_of_the_command_line_and_of_files_may_have_units() {
         let error = parse(&with(RateX, text)).unwrap_err().to_string();
         assert!(error.starts_with("rate x [rad/s] = ") && error.contains(words), "{error}");
     }
+}
+
+const PRECESSION: [(Coordinate, &str); 3] = [(Turn, "normal:6rev/s:0.1rev/s"), (Psi, "60deg:80deg"), (Speed, "2:3")];
+
+fn precession(texts: &[(Coordinate, &str)]) -> Result<Space, InputError> {
+    let given = |of: Coordinate| texts.iter().any(|(other, _)| *other == of);
+    let others = PRECESSION.into_iter().filter(|(of, _)| !given(*of));
+    Space::parse(Coin::PAPER, &others.chain(texts.iter().copied()).collect::<Vec<_>>())
+}
+
+#[test]
+fn the_rates_of_a_precession_follow_from_its_turn_and_psi() {
+    let space = precession(&[]).unwrap();
+    assert_eq!(space.free().collect::<Vec<_>>(), [Speed, Turn, Psi]);
+    let plan = Plan::Random { points: 700, seed: 3 };
+    for Drawn { values: [x, y, z, ..], toss } in space.drawn(plan).unwrap().flatten() {
+        assert_eq!([x, y, z], <[f64; 3]>::from(toss.launch.rate()));
+        for (of, value) in [RateX, RateY, RateZ].into_iter().zip([x, y, z]) {
+            let [lo, hi] = space.axis(of).bounds();
+            assert!(lo - 1e-12 <= value && value <= hi + 1e-12, "{of}: {value} of {lo} to {hi}");
+        }
+        let motion = exact::CoinMotion::new(&toss.coin().unwrap());
+        let psi = motion.cone_angle().to_degrees();
+        assert!((60.0 - 1e-9..80.0 + 1e-9).contains(&psi) && y == 0.0, "{psi}");
+    }
+}
+
+/// Independent of the solvers: cos θ = cos²ψ + sin²ψ cos(turn T) of launches from horizontal, on a fine grid.
+#[test]
+fn probabilities_of_turns_and_angles_are_those_of_the_formula() {
+    let space = precession(&[(Turn, "6rev/s:7rev/s"), (Speed, "2.4")]).unwrap();
+    const SIDE: u32 = 1500;
+    let time = 2.0 * 2.4 / 9.81;
+    let part = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE);
+    let heads = |turn: f64, psi: f64| psi.cos().powi(2) + psi.sin().powi(2) * (turn * time).cos() > 0.0;
+    let turns = (0..SIDE).map(|index| (6.0 + part(index)) * 2.0 * PI);
+    let angles: Vec<f64> = (0..SIDE).map(|index| (60.0 + 20.0 * part(index)).to_radians()).collect();
+    let count: usize = turns.map(|turn| angles.iter().filter(|psi| heads(turn, **psi)).count()).sum();
+    let expected = count as f64 / f64::from(SIDE * SIDE);
+    let sampler = Sampler::exact();
+    let grid = space.with_grid_of(1 << 20).unwrap();
+    let found = |space: &Space, plan| sampler.estimate(space, plan).unwrap();
+    for (of, plan, within) in [
+        (&grid, Plan::Grid, 2e-3),
+        (&space, Plan::Random { points: 1 << 20, seed: 1 }, 2e-3),
+        (&space, Plan::Sobol(Scrambled::new(1 << 20, 1)), 2e-5),
+        (&space, Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 16, 1))), 2e-4),
+        (&space, Plan::Enclosure { accuracy: 1e-5 }, 2e-5),
+    ] {
+        let found = found(of, plan).probability;
+        assert!((found - expected).abs() < within, "{plan:?}: {found}, {expected}");
+    }
+}
+
+#[test]
+fn a_precession_that_cannot_be_is_refused() {
+    for (texts, message) in [
+        (vec![(Psi, "normal:70deg:9deg")], "psi [rad] = -0.0"),
+        (vec![(Psi, "170deg:181deg")], "psi [rad] = 3.1"),
+        (vec![(Turn, "normal:1:0.2")], "turn [rad/s] = -0.6"),
+        (vec![(RateX, "3")], "rate x [rad/s] = 'given twice'"),
+    ] {
+        let error = precession(&texts).unwrap_err().to_string();
+        assert!(error.starts_with(message), "'{error}' for '{message}'");
+    }
+    let error = parse(&[(Turn, "1:2"), (Speed, "3")]).unwrap_err().to_string();
+    assert!(error.starts_with("psi [rad] is missing"), "{error}");
+    let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+    assert_eq!(precession(&[]).unwrap().with_body(body).unwrap_err().field(), "turn");
+    assert_eq!(
+        precession(&[]).unwrap().with_body(Coin::from_moments(1.0, 0.0).unwrap()).unwrap_err().field(),
+        "psi [rad]"
+    );
 }
 
 #[test]

@@ -95,7 +95,7 @@ pub(super) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Ve
 fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
     let mut values = [0.0; Coordinate::COUNT];
     for of in Coordinate::ALL {
-        if let AxisOrTie::Axis(axis) = space.axis_or_tie(of) {
+        if let Some(AxisOrTie::Axis(axis)) = space.axis_or_tie(of) {
             values[of as usize] = match axis.distribution() {
                 Distribution::Uniform { lo, hi } if lo == hi => lo,
                 Distribution::Uniform { lo, hi } => lo + rng.sample::<f64, _>(Open01) * (hi - lo),
@@ -107,8 +107,8 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
         }
     }
     let value = |of| match space.axis_or_tie(of) {
-        AxisOrTie::Axis(_) => values[of as usize],
-        AxisOrTie::SameAs(other) => values[other as usize],
+        Some(AxisOrTie::SameAs(other)) => values[other as usize],
+        _ => values[of as usize],
     };
     let rate = Vector3::new(value(RateX), value(RateY), value(RateZ));
     let launch = Launch::new(rate, TimeOfFlight::thrown(value(Speed), value(Gravity), space.drop()))?;

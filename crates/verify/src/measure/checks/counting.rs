@@ -68,8 +68,8 @@ fn space(axes: &Axes) -> anyhow::Result<Space> {
 }
 
 /// The values of launch number `index` of the grid over `axes`, by the definition of the grid.
-fn values(axes: &Axes, index: u32) -> [f64; Coordinate::COUNT] {
-    let mut values = [f64::NAN; Coordinate::COUNT];
+fn values(axes: &Axes, index: u32) -> [f64; 6] {
+    let mut values = [f64::NAN; 6];
     for (of, value) in FIXED {
         values[of as usize] = value;
     }
@@ -82,7 +82,7 @@ fn values(axes: &Axes, index: u32) -> [f64; Coordinate::COUNT] {
 }
 
 /// The toss of the paper's coin with these values.
-fn toss([x, y, z, speed, gravity, tilt]: [f64; Coordinate::COUNT]) -> Result<Toss, InputError> {
+fn toss([x, y, z, speed, gravity, tilt]: [f64; 6]) -> Result<Toss, InputError> {
     let launch = Launch::new(Vector3::new(x, y, z), TimeOfFlight::Ballistic { speed, gravity })?.with_tilt(tilt)?;
     Ok(Toss::new(Coin::PAPER, launch))
 }

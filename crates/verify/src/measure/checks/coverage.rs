@@ -146,14 +146,7 @@ impl Random {
         let mut builder = Space::builder(self.body);
         for (index, (of, axis)) in self.axes.iter().enumerate() {
             let axis = if index == self.moves { moved(*axis, part * self.by) } else { *axis };
-            builder = match of {
-                RateX => builder.rate_x(axis),
-                RateY => builder.rate_y(axis),
-                RateZ => builder.rate_z(axis),
-                Speed => builder.speed(axis),
-                Gravity => builder.gravity(axis),
-                Tilt => builder.tilt(axis),
-            };
+            builder = builder.axis(*of, axis);
         }
         builder.build().ok()
     }

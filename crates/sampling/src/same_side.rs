@@ -1,4 +1,4 @@
-//! The wobble that explains how often coins landed on the side that had been up. In the limit of long flights from horizontal
+//! How often coins land on the side that had been up, and the angle ψ that explains it. In the limit of long flights from horizontal
 //! the share p of such landings follows from the angle ψ between the coin's normal and its angular momentum, p = ½ +
 //! asin(cot²ψ)/π; see [`long_flight_probability`](crate::long_flight_probability). This file turns counts into ψ.
 //!
@@ -64,10 +64,10 @@ impl SameSide {
     }
 }
 
-/// The wobble that explains counts. Intervals are at the confidence [`LEVEL`].
+/// The same-side bias of people, and the angle ψ that explains it. Intervals are at the confidence [`LEVEL`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Wobble {
+pub struct SameSideBias {
     /// The counts of all people together.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub counts: SameSide,
@@ -91,7 +91,7 @@ pub struct Wobble {
     pub spread: Option<Spread>,
     /// Where the probability of a further person lies; `None` for fewer than three people.
     pub next_person: Option<Interval>,
-    /// ψ; `None` if the whole interval is below ½, which no wobble explains. With serde it is its interval.
+    /// ψ; `None` if the whole interval is below ½, which no ψ explains. With serde it is its interval.
     #[cfg_attr(feature = "serde", serde(rename = "cone_angle_interval", serialize_with = "interval_of"))]
     pub cone: Option<Cone>,
 }
@@ -114,8 +114,8 @@ pub struct Cone {
 /// Fewer people than these say little about others.
 pub const FEW_PEOPLE: usize = 6;
 
-impl Wobble {
-    /// The wobble of `people`. Those without a toss are passed over.
+impl SameSideBias {
+    /// The bias of `people`. Those without a toss are passed over.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if nobody tossed a coin, or if several people tossed more than 10^12, whose counts f64
@@ -178,9 +178,9 @@ mod tests {
     use crate::long_flight::long_flight_probability;
 
     #[test]
-    fn the_wobble_has_the_share_that_was_counted_and_contains_the_ends_of_its_interval() {
+    fn psi_has_the_share_that_was_counted_and_contains_the_ends_of_its_interval() {
         for (same, tosses) in [(178_078, 350_757), (60, 100), (99, 100), (50, 100), (45, 100)] {
-            let found = Wobble::of(&[SameSide::new(same, tosses).unwrap()]).unwrap();
+            let found = SameSideBias::of(&[SameSide::new(same, tosses).unwrap()]).unwrap();
             let share = |angle: f64| long_flight_probability(angle, angle);
             let Cone { angle, interval: [least, most] } = found.cone.unwrap();
             assert!((share(angle) - found.share.max(0.5)).abs() < 1e-12, "{found:?}");
@@ -188,29 +188,29 @@ mod tests {
             assert!((share(most) - found.interval.lo.max(0.5)).abs() < 1e-12, "{found:?}");
             assert!((share(least) - found.interval.hi).abs() < 1e-12, "{found:?}");
         }
-        let certain = Wobble::of(&[SameSide::new(9, 9).unwrap()]).unwrap().cone.unwrap();
+        let certain = SameSideBias::of(&[SameSide::new(9, 9).unwrap()]).unwrap().cone.unwrap();
         assert_eq!((certain.angle, certain.interval[0]), (std::f64::consts::FRAC_PI_4, 0.0));
     }
 
     #[test]
     fn one_person_has_the_same_answer_alone_and_among_people_who_were_absent() {
         let [absent, one] = [(0, 0), (56, 100)].map(|(same, tosses)| SameSide::new(same, tosses).unwrap());
-        let alone = Wobble::of(&[one]).unwrap();
-        assert_eq!(Wobble::of(&[absent, one, absent]).unwrap(), alone);
+        let alone = SameSideBias::of(&[one]).unwrap();
+        assert_eq!(SameSideBias::of(&[absent, one, absent]).unwrap(), alone);
         assert_eq!((alone.interval, alone.mean), (clopper_pearson(56, 100, LEVEL), 0.56));
         assert_eq!((alone.interval_kind.as_str(), alone.spread), ("clopper-pearson 95 %", None));
     }
 
     #[test]
-    fn counts_that_cannot_be_are_refused_and_few_landings_have_no_wobble() {
+    fn counts_that_cannot_be_are_refused_and_few_landings_have_no_psi() {
         assert_eq!(SameSide::new(2, 1).unwrap_err().field(), "same");
         let absent = SameSide::new(0, 0).unwrap();
-        assert_eq!(Wobble::of(&[]).unwrap_err(), Wobble::of(&[absent]).unwrap_err());
-        assert_eq!(Wobble::of(&[]).unwrap_err().field(), "tosses");
+        assert_eq!(SameSideBias::of(&[]).unwrap_err(), SameSideBias::of(&[absent]).unwrap_err());
+        assert_eq!(SameSideBias::of(&[]).unwrap_err().field(), "tosses");
         let [most, many] = [u64::MAX, 500_000_000_001].map(|number| SameSide::new(number / 2, number).unwrap());
-        assert!(matches!(Wobble::of(&[most, most]).unwrap_err(), InputError::Malformed { field: "tosses", .. }));
-        assert!(matches!(Wobble::of(&[many, many]).unwrap_err(), InputError::OutOfRange { field: "tosses", .. }));
-        assert_eq!(Wobble::of(&[most]).unwrap().people, 1);
-        assert_eq!(Wobble::of(&[SameSide::new(10, 100).unwrap()]).unwrap().cone, None);
+        assert!(matches!(SameSideBias::of(&[most, most]).unwrap_err(), InputError::Malformed { field: "tosses", .. }));
+        assert!(matches!(SameSideBias::of(&[many, many]).unwrap_err(), InputError::OutOfRange { field: "tosses", .. }));
+        assert_eq!(SameSideBias::of(&[most]).unwrap().people, 1);
+        assert_eq!(SameSideBias::of(&[SameSide::new(10, 100).unwrap()]).unwrap().cone, None);
     }
 }
