@@ -15,6 +15,14 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** A new element of a drawing. */
+export function svg(tag, attributes = {}, text = null) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  if (text !== null) element.textContent = text;
+  return element;
+}
+
 /** Puts `children` in place of what `element` holds. */
 export const fill = (element, ...children) => element.replaceChildren(...children.filter((child) => child != null));
 

@@ -1,6 +1,6 @@
 // How fair such tosses are: P(heads) of long flights against ψ, the angle between n and S, with the launch on the curve; and
 // the part of this flight that shows heads.
-import { byId, fill } from "./dom.js";
+import { byId, fill, svg } from "./dom.js";
 import { degrees, percent, short, typed } from "./format.js";
 import { column, flight } from "./flight.js";
 import { POINT } from "./memory.js";
@@ -59,13 +59,6 @@ const folded = (psi) => Math.min(psi, Math.PI - psi);
 const across = (psi) => BOX.left + (psi / QUARTER) * (BOX.right - BOX.left);
 const up = (part) => BOX.bottom - part * (BOX.bottom - BOX.top);
 
-const svg = (tag, attributes = {}, text = null) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  if (text !== null) element.textContent = text;
-  return element;
-};
-
 /** The curve, drawn through a point every quarter of a degree. */
 function curve() {
   const points = Array.from({ length: 361 }, (_, index) => (index / 360) * QUARTER);
@@ -85,7 +78,8 @@ export class Fair {
     }
     const name = svg("text", { x: (BOX.left + BOX.right) / 2, y: SIZE.height - 4, "text-anchor": "middle" }, "ψ, the angle between n and S");
     this.dot = svg("circle", { r: 8, class: "dot" });
-    chart.append(name, svg("polyline", { points: curve(), class: "curve" }), this.dot);
+    this.band = svg("rect", { y: BOX.top, height: BOX.bottom - BOX.top, width: 0, class: "band" });
+    chart.append(name, this.band, svg("polyline", { points: curve(), class: "curve" }), this.dot);
     this.handle = byId("fair-curve");
     this.handle.append(chart);
     this.chart = chart;
@@ -108,6 +102,13 @@ export class Fair {
     for (const [name, value] of Object.entries({ min: 0, max: 90, now: angle, text: `ψ ${angle}°, ${percent(part, 1e-3)} heads` })) {
       this.handle.setAttribute(`aria-value${name}`, value);
     }
+  }
+
+  /** Shows the angles that explain people's counts, or none. */
+  explain(angles) {
+    const [from, to] = (angles ?? [0, 0]).map(across);
+    this.band.setAttribute("x", from);
+    this.band.setAttribute("width", to - from);
   }
 
   /** Draws when this flight shows heads, and when tails, unless its turns are too many to be seen. */

@@ -8,6 +8,8 @@ import { Fair } from "./fair.js";
 import { flight, fly, land, table } from "./flight.js";
 import { typed } from "./format.js";
 import { Hand } from "./hand.js";
+import { Lesson } from "./lesson.js";
+import { People } from "./people.js";
 import { Integrators } from "./integrators.js";
 import { MapView } from "./map.js";
 import { FRAME } from "./memory.js";
@@ -26,7 +28,8 @@ async function main() {
   apply();
   await start();
   const known = ask({ ask: "known" });
-  Object.assign(parts, { controls: new Controls(known), fair: new Fair(), map: new MapView(), hand: new Hand(), traces: new Traces() });
+  Object.assign(parts, { controls: new Controls(known), fair: new Fair(), map: new MapView(), hand: new Hand(), traces: new Traces(), lesson: new Lesson() });
+  parts.people = new People((angles) => parts.fair.explain(angles));
   parts.integrators = new Integrators(known);
   parts.player = new Player(show);
   Object.assign(measured, { map: parts.map.timing, frames: parts.player.frames });
@@ -44,6 +47,7 @@ async function main() {
   addEventListener("hashchange", () => (location.hash.slice(1) === address() ? read() : readAddress()));
   // The page is at its place only when it has its height; the address chooses what it shows.
   readAddress();
+  viewChanged();
   measured.firstAnswer = performance.now();
   document.documentElement.dataset.ready = "answer";
   requestAnimationFrame(() => setTimeout(loadScene));
@@ -103,6 +107,8 @@ const restOfAnswer = onceAFrame(() => {
 
 function viewChanged() {
   parts.player.refresh();
+  parts.lesson.show();
+  parts.people.show();
   if (!toss) return;
   parts.map.update(toss);
   parts.hand.show();

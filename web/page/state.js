@@ -32,6 +32,8 @@ const VIEW = {
   step: "1ms",
   formulation: "momentum",
   pace: "0.1",
+  people: "",
+  lesson: "0",
 };
 
 /** The scene and the view; they change by `change` alone. */
@@ -91,7 +93,7 @@ export function address() {
 const escaped = (text) => encodeURIComponent(text).replaceAll("%2F", "/").replaceAll("%2C", ",");
 
 /** The values that a part of the view may have, where these are not numbers. */
-export const CHOICES = { map: ["rate_z", "speed"], shade: ["outcome", "chance"] };
+export const CHOICES = { map: ["rate_z", "speed"], shade: ["outcome", "chance"], lesson: ["0", "1", "2", "3", "4", "5"] };
 
 function decoded(name, text) {
   try {

@@ -10,7 +10,7 @@ use crate::integrators::Chosen;
 use crate::map::Grid;
 use crate::page::Page;
 use crate::thrown::Scene;
-use crate::{aim, hand, integrators, known, line, map, outcome};
+use crate::{aim, hand, integrators, known, line, map, outcome, people};
 
 /// A question, as `{NAME: {...}}`, or its name alone if there is no more to it.
 #[derive(Debug, Deserialize)]
@@ -88,6 +88,11 @@ pub enum Question {
         /// The wanted P(heads).
         heads: String,
     },
+    /// What the counts of people's flips say.
+    People {
+        /// Of each person the landings on the side that had been up, and the flips.
+        counts: Vec<[u64; 2]>,
+    },
     /// Every solver with each of its schemes: their settings, to be asked for one by one.
     Candidates {
         /// The tolerance of the schemes that take one.
@@ -152,6 +157,7 @@ impl Page {
                 to_value(&hand::throws(&scene.thrown()?, &spread, number, seed)?)
             }
             Question::Precision { scene, heads } => to_value(&hand::precision(&scene.thrown()?, &heads)?),
+            Question::People { counts } => to_value(&people::counted(&counts)?),
             Question::Candidates { tolerance, step, formulation } => {
                 to_value(&integrators::candidates(&tolerance, &step, &formulation)?)
             }

@@ -29,6 +29,7 @@ mod line;
 mod map;
 mod outcome;
 mod page;
+mod people;
 mod thrown;
 
 pub use page::Page;

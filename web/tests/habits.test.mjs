@@ -419,6 +419,50 @@ test("the curve has the launch on it, and moving the point throws another one", 
   await close(page);
 });
 
+test("the lesson steps through its cards, and a link keeps the step", async () => {
+  const page = await open(browser, "", { until: "scene" });
+  await page.click("#lesson-start");
+  const seen = [];
+  for (let step = 1; step <= 5; step++) {
+    await drawn(page);
+    assert.match(await text(page, "lesson-words"), new RegExp(`^${step} of 5: `));
+    seen.push(await page.locator("section.spotlight").getAttribute("id"));
+    assert.ok(await page.locator("section.spotlight h2, section.spotlight canvas").first().isVisible());
+    if (step === 2) assert.match(await address(page), /lesson=2/);
+    await page.click("#lesson-next");
+  }
+  assert.deepEqual(seen, ["flight", "fair", "hand", "people", "answer"]);
+  assert.ok(await page.locator("#lesson").isHidden());
+  assert.ok(!(await address(page)).includes("lesson"));
+  await close(page);
+});
+
+test("a class's own counts are drawn, explained by ψ, and kept by the address; what is wrong is named", async () => {
+  const page = await open(browser, "", { until: "scene" });
+  const counts = (typed) => page.fill("#people-counts", typed);
+  const words = async (expected) => {
+    await page.waitForFunction((expected) => document.getElementById("people-words").textContent.includes(expected), expected);
+    return text(page, "people-words");
+  };
+  await counts("person;same;tosses\nAda;11;20\nBen;9;20\nCem;12;20\nDora;10;20\nEli;13;20\nFay;8;20");
+  // As `inverse --counts` says of the same file: 0.4027 to 0.6446.
+  assert.match(await words("63 of 120"), /mean is 0\.525, from 0\.403 to 0\.645 .* ψ = 74\.4°.*band in the curve/);
+  assert.equal(await page.locator("#people-plot line.person").count(), 6);
+  assert.ok(Number(await page.locator("#fair-curve .band").getAttribute("width")) > 50);
+  const link = await address(page);
+  const again = await open(browser, link);
+  assert.match(await again.inputValue("#people-counts"), /Fay;8;20$/);
+  await close(again);
+  for (const [typed, message] of [["Ada, 11", "line 1: 'Ada' is no count"], ["1,2\n3", "line 2: a name"], ["Ada, 21, 20", "line 1: 21 of 20"], ["a,1,2,3", "line 1: a name"]]) {
+    await counts(typed);
+    await page.waitForFunction((message) => document.getElementById("people-error").textContent.includes(message), message);
+    assert.equal(await page.locator("#people-plot svg").count(), 0);
+  }
+  await counts("");
+  await page.waitForFunction(() => document.getElementById("people-error").hidden);
+  await close(page);
+});
+
 test("on every screen the sliders can be held, the presets seen and the buttons hit", async () => {
   for (const [width, height] of [[320, 640], [390, 844], [844, 390], [1280, 800]]) {
     const page = await open(browser, "", { viewport: { width, height } });

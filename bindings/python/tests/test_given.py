@@ -92,6 +92,7 @@ CALLS = {
     "Solver": (ut.Solver, {"name": "euler", "scheme": "dopri5", "rtol": 1e-6, "formulation": "momentum"}),
     "Solver with a step": (ut.Solver, {"name": "euler", "scheme": "rk4", "step": 0.1}),
     "Space": (ut.Space, AXES | {"gravity": 9.0, "tilt": 0.0, "drop": 0.1, "body": "paper"}),
+    "Space of turns": (ut.Space, {"turn": (6.0, 7.0), "psi": "60deg:80deg", "speed": 3.0}),
     "Space.named": (ut.Space.named, {"name": "tails"}),
     "Space.with_body": (SPACE.with_body, {"body": "paper"}),
     "Space.from_json": (ut.Space.from_json, {"text": SPACE.to_json()}),
@@ -183,7 +184,7 @@ def test_what_would_change_its_meaning_is_no_number(name, argument):
         with pytest.raises(errors.InputError) as caught:
             call(**(right | {argument: HOSTILE[words]}))
         assert isinstance(caught.value, errors.MalformedError | errors.PartError), words
-    if argument not in ("rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt") or name != "Space":
+    if argument not in ("rate_x", "rate_y", "rate_z", "turn", "psi", "speed", "gravity", "tilt") or "Space" not in name:
         with pytest.raises(errors.InputError):
             call(**(right | {argument: "3"}))
 

@@ -60,13 +60,11 @@ def test_each_exception_is_a_value_error_or_a_runtime_error():
             assert issubclass(kind, ValueError) != issubclass(kind, RuntimeError), name
 
 
-def test_the_import_takes_less_than_50_ms_beyond_numpys():
-    code = "import numpy, time; start = time.process_time(); import unfair_toss; print(time.process_time() - start)"
-    times = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(5)]
-    assert min(times) < 0.05, times
-    code = "import sys, unfair_toss; print(*sys.modules)"
-    modules = subprocess.check_output([sys.executable, "-c", code], text=True).split()
-    assert not {"scipy", "matplotlib", "dask", "distributed", "concurrent.futures"} & set(modules)
+def test_the_import_brings_few_modules_beyond_numpys():
+    code = "import numpy, sys; before = set(sys.modules); import unfair_toss; print(*set(sys.modules) - before)"
+    modules = set(subprocess.check_output([sys.executable, "-c", code], text=True).split())
+    assert not {"scipy", "matplotlib", "dask", "distributed", "concurrent.futures"} & modules
+    assert len(modules) < 30, modules
 
 
 @pytest.mark.parametrize(

@@ -81,13 +81,26 @@ def test_a_space_takes_numbers_tuples_and_texts():
         ({"rate_x": (5, 1)}, "rate_x [rad/s]"),
         ({"speed": -1}, "speed [m/s]"),
         ({"rate_z": [1, 2, 3, 4]}, "rate_z"),
-        ({"rate_z": None}, "rate_z"),
+        ({"rate_z": None}, "rate_z [rad/s]"),
+        ({"turn": 1}, "rate_x [rad/s]"),
         ({"rate_y": "sideways"}, "rate_y [rad/s]"),
         ({"drop": -10.0}, "drop [m]"),
     ]:
         with pytest.raises(errors.InputError) as caught:
             ut.Space(**({"rate_x": 1, "rate_y": 1, "rate_z": 1, "speed": 1} | changes))
         assert caught.value.field == field
+
+
+def test_a_space_of_turns_and_angles_is_that_of_the_command_line(ask):
+    axes = {"turn": "normal:38rev/s:0.5rev/s", "psi": "normal:70deg:2deg", "speed": "2.3:2.5"}
+    space = ut.Space(**axes, body="us-quarter")
+    assert ut.Space.from_json(space.to_json()) == space
+    options = [part for name, text in axes.items() for part in (f"--{name}", text)]
+    expected = ask("probability", "--coin", "us-quarter", *options, "--method", "enclosure", "--accuracy", "1e-5")
+    found = ut.probability(space, ut.Plan.enclosure(1e-5))
+    assert list(found.interval) == expected["interval"] and found.probability == expected["probability"]
+    with pytest.raises(errors.InputError, match="n of a body with I1 ≠ I2"):
+        space.with_body(ut.Body.from_moments((1, 2, 2.5)))
 
 
 @pytest.mark.parametrize("method", PLANS)
