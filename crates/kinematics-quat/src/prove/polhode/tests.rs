@@ -28,45 +28,6 @@ fn tosses() -> impl Iterator<Item = ([f64; 3], Toss)> {
     MOMENTS.into_iter().flat_map(|moments| RATES.map(|rate| (moments, toss(moments, rate))))
 }
 
-/// κ1 above 1 is no less than what each bound of section 7 allows for, and without it the Jacobian exceeds its bound.
-#[test]
-fn bounds_hold_for_a_plate_whose_rounded_moments_break_the_inequality() {
-    let off = |e: [f64; 3], [k, l]: [f64; 2]| Vector3::new(-k * e[1] * e[2], e[0] * e[2], -l * e[0] * e[1]);
-    let mut beyond = [false; 5];
-    for rate in RATES.into_iter().chain([[0.001, 1.2, 1.3], [0.0, 1.0, 1.0], [0.02, 1.7, 1.7]]) {
-        let toss = toss(THIN, rate);
-        let polhode = polhode(&toss);
-        let kappas = polhode.rounded_kappas();
-        assert!(toss.body.rigid().couplings()[0] < -1.8 && kappas[0] > 1.27 && polhode.widest >= kappas[0]);
-        for rate in rates(&toss) {
-            let (f, jacobian) = field(THIN, &rate);
-            let momentum = Vector3::from(THIN).component_mul(&rate);
-            let across = rate - momentum * (rate.dot(&momentum) / momentum.norm_squared());
-            let growth = (0.5 * (jacobian + jacobian.transpose())).symmetric_eigenvalues().amax();
-            let [a, b] = polhode.invariants.map(|ball| ball.to_f64());
-            let gradient = Vector3::new(rate.x, kappas[0] * rate.y, 0.0).norm() / rate.norm();
-            let square = off(rate.into(), kappas).norm() / rate.norm_squared();
-            let shares = [
-                jacobian.norm() / (ROOT_2 * polhode.coupling * polhode.fastest),
-                square / INVERSE_ROOT_3,
-                f.norm() / polhode.coupling / (a * b).sqrt(),
-                gradient,
-                polhode.speed(rate.into()) / off(rate.into(), kappas).norm(),
-            ];
-            for (beyond, share) in beyond.iter_mut().zip(shares) {
-                assert!(share <= polhode.widest * (1.0 + 1e-9), "{shares:?}, {toss:?}");
-                *beyond |= share > 1.0 + 1e-9;
-            }
-            assert!(
-                shares[4] <= 1.0 + 1e-9 && growth <= polhode.growth * (1.0 + 1e-9) && across.norm() <= polhode.across
-            );
-            assert!(rate.norm() <= polhode.fastest);
-        }
-    }
-    // The hypothesis that couplings are at most 1 is false of this body, and the formulas that rest on it are, too.
-    assert!(beyond[0] && beyond[1] && beyond[2] && beyond[3], "{beyond:?}");
-}
-
 /// The rates at some times.
 fn rates(toss: &Toss) -> impl Iterator<Item = Vector3<f64>> {
     let motion = ExactMotion::new(toss);
@@ -224,6 +185,7 @@ fn bounds_of_numbers_have_room_for_their_rounding_and_no_more() {
 fn an_error_grows_by_its_formula() {
     for (_, toss) in tosses().chain([(THIN, toss(THIN, RATES[0]))]) {
         let polhode = polhode(&toss);
+        assert!(polhode.widest >= polhode.rounded_kappas()[0].max(1.0), "κ1 of a thin plate is above 1");
         for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.1, 2.5), (0.3, 2.0), (2.0, 9.0)] {
             let first = start * exp_above(polhode.growth * h);
             let square = exp_above(2.0 * 0.5774 * polhode.widest * polhode.coupling * first * h);
