@@ -80,8 +80,7 @@ pub trait Elementary: Number + Div<Output = Self> {
         (self.to_f64().abs() + self.error()) * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too. Of a number
-    /// with an error bound it is said of the midpoint.
+    /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too.
     fn is_in_range(&self) -> bool {
         self.to_f64().is_finite()
     }
@@ -115,6 +114,32 @@ pub trait Elementary: Number + Div<Output = Self> {
         self.times_power_of_two(-1)
     }
 }
+
+/// The questions of [`Elementary`] that one part of a number answers: of a ball its midpoint, of a series its constant.
+macro_rules! answered_by {
+    ($number:ident, $part:expr) => {
+        fn to_f64(&$number) -> f64 {
+            $crate::Elementary::to_f64(&$part)
+        }
+
+        fn to_double_double(&$number) -> $crate::DoubleDouble {
+            $crate::Elementary::to_double_double(&$part)
+        }
+
+        fn to_big(&$number) -> $crate::Big {
+            $crate::Elementary::to_big(&$part)
+        }
+
+        fn digits(&$number) -> i32 {
+            $crate::Elementary::digits(&$part)
+        }
+
+        fn sign(&$number) -> f64 {
+            $crate::Elementary::sign(&$part)
+        }
+    };
+}
+pub(crate) use answered_by;
 
 /// Functions are those of the platform: sine, cosine, exponential and atan2 by the standard library.
 impl Elementary for f64 {

@@ -84,10 +84,7 @@ impl Quantity {
         scaled.times_power_of_two(exponent)
     }
 
-    /// The number, rounded to so many binary digits.
-    ///
-    /// # Panics
-    /// For a value that is not finite.
+    /// The number, rounded to so many binary digits. Panics for a value that is not finite.
     pub fn in_digits(self, digits: usize) -> Big {
         let product = exactly(self.value) * exactly(self.unit.numerator.into());
         product.with_precision(digits).value() / exactly(self.unit.denominator.into()).with_precision(digits).value()
