@@ -22,11 +22,8 @@ pub struct Launch {
 
 impl Launch {
     /// A launch from horizontal with heads up, with the body rate `rate` (BF, the body frame; rad/s), as a vector or as an
-    /// array.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an impossible
-    /// time of flight (see [`TimeOfFlight`] for the valid ranges).
+    /// array. Fails with [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an
+    /// impossible time of flight (see [`TimeOfFlight`] for the valid ranges).
     #[inline]
     pub fn new(rate: impl Into<Vector3<f64>>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         let rate = rate.into();
@@ -39,9 +36,6 @@ impl Launch {
     }
 
     /// As [`Launch::new`], with the body rate in a `unit` of angle per second.
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn in_unit(
         rate: impl Into<Vector3<f64>>,
         unit: AngleUnit,
@@ -53,16 +47,11 @@ impl Launch {
     }
 
     /// A launch with the attitude and the body rate of `state`, to continue a flight.
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn from_state(state: &State, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         Ok(Self::new(state.rate, time_of_flight)?.with_attitude(state.attitude))
     }
 
-    /// The same launch with another time of flight. The body rate stays as it was given, in its unit.
-    ///
-    /// # Errors
+    /// The same launch with another time of flight. The body rate stays as it was given, in its unit. Fails with
     /// [`InputError::OutOfRange`] for an impossible time of flight.
     pub fn with_time_of_flight(self, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         // As in `new`, -0 is 0.
@@ -77,10 +66,7 @@ impl Launch {
     }
 
     /// The same launch with the horizontal coin turned by `tilt` about the x axis of LF (α = γ = 0, β = `tilt`). An f64 is in
-    /// radians.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if `tilt` is not finite.
+    /// radians. Fails with [`InputError::OutOfRange`] if `tilt` is not finite.
     pub fn with_tilt(self, tilt: impl Into<Angle>) -> Result<Self, InputError> {
         let tilt = tilt.into();
         require("tilt [rad]", tilt.radians(), "finite", true)?;

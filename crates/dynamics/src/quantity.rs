@@ -286,17 +286,11 @@ impl Dimension {
     }
 
     /// Reads a quantity into its SI unit.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] that names `field` and the units that fit.
     pub fn read(self, field: &'static str, text: &str) -> Result<f64, InputError> {
         self.given(field, text).map(Given::si)
     }
 
     /// Reads a quantity in the unit that it is given in, which without one is the SI unit.
-    ///
-    /// # Errors
-    /// As [`Dimension::read`].
     pub fn given(self, field: &'static str, text: &str) -> Result<Given, InputError> {
         let unreadable = || InputError::unreadable(field, text, self.expected());
         self.parsed(text).map(|(given, _)| given).ok_or_else(unreadable)
@@ -327,10 +321,8 @@ pub fn common_unit(given: &[Given]) -> Option<NamedUnit> {
 }
 
 /// Reads several quantities that belong together. Either all of them have a unit or none has, since a unit after the last
-/// number alone could be meant for all. A 0 needs no unit.
-///
-/// # Errors
-/// [`InputError::Malformed`] that names `field`, with `expected` for a text that is not a quantity of its kind.
+/// number alone could be meant for all. A 0 needs no unit. Fails with [`InputError::Malformed`] that names `field`,
+/// with `expected` for a text that is not a quantity of its kind.
 pub fn read_quantities(
     field: &'static str,
     whole: &str,

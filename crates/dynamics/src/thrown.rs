@@ -207,9 +207,6 @@ impl Field {
     }
 
     /// The field with this name. A component of the rate may also be called as in a space.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`] with the names of all fields.
     pub fn named(name: &str) -> Result<Self, InputError> {
         match name {
             "rate_x" | "rate-x" => Ok(Self::RateX),
@@ -255,11 +252,8 @@ pub struct Thrown {
 }
 
 impl Thrown {
-    /// Gives `field` by its text.
-    ///
-    /// # Errors
-    /// [`InputError`] that names the field: for a text that it can't be, if it was given before, and for what is outside the
-    /// model.
+    /// Gives `field` by its text. Fails, naming the field, for a text that it can't be, if it was given before, and for
+    /// what is outside the model.
     pub fn set(&mut self, field: Field, text: &str) -> Result<(), InputError> {
         let info = field.info();
         match info.holds {
@@ -279,10 +273,8 @@ impl Thrown {
         }
     }
 
-    /// Gives `field` by its numbers, in the order of its parts.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] that names the field, for another number of them, and if it was given before.
+    /// Gives `field` by its numbers, in the order of its parts. Fails with [`InputError::Malformed`] that names the
+    /// field, for another number of them, and if it was given before.
     pub fn put(&mut self, field: Field, numbers: Vec<Given>) -> Result<(), InputError> {
         let info = field.info();
         if info.holds.kinds(numbers.len()).is_none() {
@@ -295,9 +287,6 @@ impl Thrown {
     }
 
     /// As [`Thrown::put`], by numbers in SI units.
-    ///
-    /// # Errors
-    /// As [`Thrown::put`].
     pub fn put_si(&mut self, field: Field, numbers: &[f64]) -> Result<(), InputError> {
         self.put(field, field.in_si(numbers))
     }
@@ -337,19 +326,14 @@ impl Thrown {
         self
     }
 
-    /// The toss; the body is the paper's coin if none was given.
-    ///
-    /// # Errors
-    /// [`InputError`] for what is missing, contradicts itself or is outside its range.
+    /// The toss; the body is the paper's coin if none was given. Fails for what is missing, contradicts itself or is
+    /// outside its range.
     pub fn toss(&self) -> Result<Toss, InputError> {
         let body = self.body()?.unwrap_or(Coin::PAPER.into());
         Ok(Toss { body, launch: self.launch(&body, self.time_of_flight()?)? })
     }
 
-    /// The field that gives the body, if one does.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] if several do.
+    /// The field that gives the body, if one does. Fails with [`InputError::Malformed`] if several do.
     pub fn body_field(&self) -> Result<Option<Field>, InputError> {
         let mut given = Field::BODY.into_iter().filter(|field| self.has(*field));
         match (given.next(), given.next()) {
@@ -359,9 +343,6 @@ impl Thrown {
     }
 
     /// The body, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn body(&self) -> Result<Option<Body>, InputError> {
         let body = match self.body_field()? {
             None => return Ok(None),
@@ -382,9 +363,6 @@ impl Thrown {
 
     /// The body with these moments, or elements of the tensor if that is how it was given, in any unit: they decide its
     /// motion by their ratios.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn body_of(&self, elements: &[f64]) -> Result<Body, InputError> {
         match <[f64; 6]>::try_from(elements) {
             Ok(elements) if self.has(Field::Inertia) => Body::from_inertia(elements),
@@ -393,9 +371,6 @@ impl Thrown {
     }
 
     /// What the time of flight follows from.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn time_of_flight(&self) -> Result<TimeOfFlight, InputError> {
         let [speed, time, gravity, drop] = Field::FLIGHT.map(|field| self.one(field).map(Given::si));
         match (speed, time) {
@@ -410,9 +385,6 @@ impl Thrown {
 
     /// The launch of `body` with this time of flight. Components of the rate in one unit are not converted, so that proofs
     /// start from them.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn launch(&self, body: &Body, time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
         let launch = match self.components()? {
             Some(_) if self.has(Field::Turn) || self.has(Field::Wobble) => {
@@ -431,9 +403,6 @@ impl Thrown {
     }
 
     /// The components of the rate, if they were given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn components(&self) -> Result<Option<[Given; 3]>, InputError> {
         const AXES: [Field; 3] = [Field::RateX, Field::RateY, Field::RateZ];
         let of_axes = AXES.map(|axis| self.one(axis));
@@ -450,9 +419,6 @@ impl Thrown {
     }
 
     /// The body rate (BF, rad/s) of a precession of `body`, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn precession(&self, body: &Body) -> Result<Option<Vector3<f64>>, InputError> {
         const WHY: &str = "n of a body with I1 ≠ I2 turns unevenly; use the body rate instead";
         match (self.one(Field::Turn), self.one(Field::Wobble)) {
@@ -467,9 +433,6 @@ impl Thrown {
     }
 
     /// The attitude at launch, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn attitude(&self) -> Result<Option<Attitude>, InputError> {
         let given = [Field::Tilt, Field::Attitude, Field::UnitQuaternion].map(|field| self.has(field));
         match given {
