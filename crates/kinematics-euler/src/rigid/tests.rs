@@ -1,5 +1,7 @@
 //! Tests of the three angles of any rigid body against the exact motion, in both frames, and of their singular points.
 
+use std::f64::consts::PI;
+
 use dynamics::{Body, Launch, Scheme, Solver, TimeOfFlight};
 use exact::ExactMotion;
 
