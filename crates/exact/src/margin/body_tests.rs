@@ -110,18 +110,6 @@ fn no_flip_by_a_rate_is_nearer_than_the_margin_and_beyond_it_lands_the_other_fac
 }
 
 #[test]
-fn the_margin_has_the_changes_of_all_inputs() {
-    let toss = tosses().nth(6).unwrap();
-    let outcome = certify(&toss).unwrap().outcome();
-    let found = margin(&toss).unwrap();
-    assert_eq!(([found.time, found.speed, found.gravity], found.time_range), of_flight(&toss, outcome).unwrap());
-    assert_eq!(found.tilt, of_tilt(&toss));
-    for axis in 0..3 {
-        assert_eq!((found.rate[axis], found.rate_range[axis]), of_rate(&toss, axis, outcome));
-    }
-}
-
-#[test]
 fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
     // Next to the spin about the largest axis, the normal stays up for ever.
     let steady = toss([1.0, 2.0, 2.5], [0.1, 0.2, 30.0], TimeOfFlight::Given(0.5), 0.1);

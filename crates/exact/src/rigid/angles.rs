@@ -65,11 +65,8 @@ impl RigidAngles {
     }
 
     /// The angles `time` (s) after launch, continuous from launch on. Times that ascend take one walk between them; a
-    /// time before the last one starts again from the launch.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`]; for bodies with I1 ≠ I2 also [`SolveError::StepLimit`] after some hundred thousand
-    /// radians, here and at every later time.
+    /// time before the last one starts again from the launch. Fails with [`SolveError::PhaseTooLarge`]; for bodies with
+    /// I1 ≠ I2 also [`SolveError::StepLimit`] after some hundred thousand radians, here and at every later time.
     pub fn at(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
         match &mut self.kind {
             Kind::Coin(motion) => motion.euler_angles(time),
@@ -276,17 +273,6 @@ mod tests {
         for time in [1e9, 1.5e9, 2e9] {
             assert_eq!(walk.to(time).unwrap_err().kind(), "step_limit");
             assert_eq!(walk.steps, MOST_STEPS);
-        }
-    }
-
-    #[test]
-    fn the_departure_from_the_vertical_does_not_depend_on_the_size_of_the_rate() {
-        let at_launch = |size: f64| {
-            let toss = toss([1.0, 2.0, 2.5], [3.0 * size, 4.0 * size, 0.0], 0.0);
-            RigidAngles::new(&toss).at(0.0).unwrap()
-        };
-        for size in [1e-200, 1e200] {
-            assert_near(at_launch(size), at_launch(1.0), 1e-15);
         }
     }
 

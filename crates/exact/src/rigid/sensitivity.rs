@@ -36,11 +36,9 @@ type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
     /// The derivatives at the landing of `toss`. Of a body that is not a coin, each column of the attitude, and each derivative of cos θ by a
-    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, and of turns above
-    /// 300 rad with a component of the rate below 1e-241 of the largest.
+    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. Fails with
+    /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, and of
+    /// turns above 300 rad with a component of the rate below 1e-241 of the largest.
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         if let Some(toss) = toss.coin() {
             return Self::of_coin(&toss);
