@@ -5,6 +5,7 @@
 //! steps have the same turn, whose series is computed once, in balls. The attitude and the direction of η are stepped on
 //! as the midpoints of balls, because balls would grow with each step; what that leaves out is added up.
 
+use dynamics::attitude::vertical_in_body;
 use dynamics::integrate::STEP_LIMIT;
 use dynamics::{CoinToss, Outcome, SolveError};
 use numerics::big::exactly;
@@ -220,14 +221,11 @@ fn turned<N: Elementary>([w, x, y, z]: &[N; 4], [r_w, r_z]: &Pair<N>, [r_x, r_y]
 }
 
 /// The height of the normal after the turn P, times |P|², with the `vertical` seen before it; and |P|².
-pub(super) fn height<N: Elementary>([a, b, c]: &[N; 3], [w, x, y, z]: &[N; 4]) -> (N, N) {
-    let times = |a: &N, b: &N| a.clone() * b.clone();
-    let twice = |half: N| half.clone() + half;
-    let (upright, inverted) = (times(w, w) + times(z, z), times(x, x) + times(y, y));
-    let across = [times(x, z) + times(w, y), times(y, z) - times(w, x)].map(twice);
-    let [along_x, along_y] = across;
-    let sum = times(a, &along_x) + times(b, &along_y) + times(c, &(upright.clone() - inverted.clone()));
-    (sum, upright + inverted)
+pub(super) fn height<N: Elementary>(vertical: &[N; 3], [w, x, y, z]: &[N; 4]) -> (N, N) {
+    // The normal is the third axis of the frame that is turned back.
+    let ([x, y, z], square) = vertical_in_body([w.clone(), -x.clone(), -y.clone(), -z.clone()]);
+    let [a, b, c] = vertical.clone();
+    (a * x + b * y + c * z, square)
 }
 
 #[cfg(test)]

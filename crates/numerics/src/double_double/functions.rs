@@ -83,7 +83,6 @@ impl DoubleDouble {
     }
 
     /// e to this power; 0 below -745, infinite above 709, and NaN of NaN.
-    #[must_use]
     pub fn exp(self) -> Self {
         const HALVINGS: i32 = 6;
         if !EXPONENTS.contains(&self.hi) {
