@@ -15,7 +15,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use numerics::big::exactly;
 use numerics::scale::power_of_two_scale;
-use numerics::{Angle, Big, DoubleDouble, Number};
+use numerics::{Big, DoubleDouble, Number, Quantity};
 
 use crate::error::{InputError, require};
 
@@ -38,7 +38,7 @@ enum Origin {
     /// By a turn about x.
     Tilt {
         /// The angle.
-        angle: Angle,
+        angle: Quantity,
         /// Its sine and cosine, to 2^-68.
         sin_cos: [DoubleDouble; 2],
     },
@@ -79,12 +79,12 @@ impl Attitude {
     }
 
     /// A turn by a finite `angle` about the lab's x axis; an f64 is in radians.
-    pub fn about_x(angle: impl Into<Angle>) -> Self {
+    pub fn about_x(angle: impl Into<Quantity>) -> Self {
         let angle = angle.into();
-        if angle.is_zero() {
+        if angle.value() == 0.0 {
             return Self::IDENTITY;
         }
-        let (sin, cos) = (0.5 * angle.radians()).sin_cos();
+        let (sin, cos) = (0.5 * angle.to_f64()).sin_cos();
         let quaternion = UnitQuaternion::new_unchecked(Quaternion::new(cos, sin, 0.0, 0.0));
         Self { quaternion, origin: Origin::Tilt { angle, sin_cos: angle.sin_cos() } }
     }
@@ -111,7 +111,7 @@ impl Attitude {
     }
 
     /// The turn about the lab's x axis that it was made by, if it was.
-    pub fn tilt(&self) -> Option<Angle> {
+    pub fn tilt(&self) -> Option<Quantity> {
         if let Origin::Tilt { angle, .. } = self.origin { Some(angle) } else { None }
     }
 

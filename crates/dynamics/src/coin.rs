@@ -170,9 +170,9 @@ mod tests {
             (1e-150.into(), 3e-140.into()),
             (3e150.into(), 0.0.into()),
             (0.1.into(), 7.7.into()),
-            (Quantity::new(12.13, mm), Quantity::new(1.75, mm)),
-            (Quantity::new(0.955, inch), Quantity::new(1.75, mm)),
-            (Quantity::new(0.955, inch), 0.00175.into()),
+            (mm.times(12.13), mm.times(1.75)),
+            (inch.times(0.955), mm.times(1.75)),
+            (inch.times(0.955), 0.00175.into()),
         ] {
             let coin =
                 Coin::from_cylinder(if radius.to_f64() < 1.0 { 1e30 } else { 1e-30 }, radius, thickness).unwrap();

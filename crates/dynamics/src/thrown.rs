@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use numerics::{Angle, AngleUnit};
+use numerics::{Quantity, Unit};
 
 use crate::attitude::Attitude;
 use crate::body::Body;
@@ -391,7 +391,7 @@ impl Thrown {
                 return Err(Field::Rate.twice("either a rate, or turn with wobble"));
             }
             Some(given) => match common_unit(&given) {
-                Some(unit) => Launch::in_unit(given.map(Given::value), unit.angle_unit(), time_of_flight)?,
+                Some(unit) => Launch::in_unit(given.map(Given::value), unit.size(), time_of_flight)?,
                 None => Launch::new(given.map(Given::si), time_of_flight)?,
             },
             None => {
@@ -437,7 +437,7 @@ impl Thrown {
         let given = [Field::Tilt, Field::Attitude, Field::UnitQuaternion].map(|field| self.has(field));
         match given {
             [false, false, false] => Ok(None),
-            [true, false, false] => self.one(Field::Tilt).map(|tilt| tilted(tilt.angle())).transpose(),
+            [true, false, false] => self.one(Field::Tilt).map(|tilt| tilted(tilt.quantity())).transpose(),
             [false, true, false] => Attitude::from_components(self.si(Field::Attitude)).map(Some),
             [false, false, true] => Attitude::from_unit_components(self.si(Field::UnitQuaternion)).map(Some),
             _ => Err(Field::Attitude.twice("either tilt or attitude")),
@@ -466,7 +466,7 @@ impl Thrown {
         match (body.coin(), body.moments()) {
             (Some(coin), _) => match coin.cylinder() {
                 Some(sizes) => {
-                    let size = |(kind, size): (&Dimension, _)| kind.of_quantity(size);
+                    let size = |(kind, size): (&Dimension, Quantity)| kind.in_unit(size.value(), size.unit());
                     self.with(Field::Cylinder, CYLINDER.iter().zip(sizes).map(size).collect())
                 }
                 None => self.with_si(Field::Moments, &[coin.i1(), coin.i3()]),
@@ -498,16 +498,11 @@ impl Thrown {
     pub fn with_attitude(self, attitude: &Attitude) -> Self {
         let given = attitude.given_components();
         match attitude.tilt() {
-            Some(Angle::Radians(size)) => self.with_tilt(size.value(), AngleUnit::Radians(size.unit())),
-            Some(Angle::Turns(size)) => self.with_tilt(size.value(), AngleUnit::Turns(size.unit())),
+            Some(tilt) => self.with(Field::Tilt, vec![Dimension::Angle.in_unit(tilt.value(), tilt.unit())]),
             None if Attitude::from_components(given) == Ok(*attitude) => self.with_si(Field::Attitude, &given),
             // Dividing by a norm that is 1 to rounding can change the last bits.
             None => self.with_si(Field::UnitQuaternion, &attitude.components()),
         }
-    }
-
-    fn with_tilt(self, value: f64, unit: AngleUnit) -> Self {
-        self.with(Field::Tilt, vec![Dimension::Angle.in_unit(value, unit)])
     }
 
     fn with_si(self, field: Field, numbers: &[f64]) -> Self {
@@ -529,14 +524,14 @@ impl Thrown {
 
 /// Numbers separated by commas; each of them has its unit unless all are in SI units.
 fn listed(numbers: &[Given]) -> String {
-    let is_plain = numbers.iter().all(|given| given.unit().angle_unit() == AngleUnit::RADIAN);
+    let is_plain = numbers.iter().all(|given| given.unit().size() == Unit::ONE);
     let number = |given: &Given| if is_plain { format!("{:?}", given.value()) } else { given.to_string() };
     numbers.iter().map(number).collect::<Vec<_>>().join(",")
 }
 
 /// The attitude that is tilted by a finite `angle`.
-fn tilted(angle: Angle) -> Result<Attitude, InputError> {
-    require("tilt [rad]", angle.radians(), "finite", true)?;
+fn tilted(angle: Quantity) -> Result<Attitude, InputError> {
+    require("tilt [rad]", angle.to_f64(), "finite", true)?;
     Ok(Attitude::about_x(angle))
 }
 

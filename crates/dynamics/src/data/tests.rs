@@ -1,6 +1,6 @@
 use std::fmt::Debug;
 
-use numerics::{Angle, AngleUnit, Quantity, Unit};
+use numerics::Unit;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -116,12 +116,11 @@ fn assert_refused<T: DeserializeOwned + Debug>(text: &str, message: &str) {
 
 #[test]
 fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in() {
-    let degree = Unit::ratio(1, 360).unwrap();
-    let per_minute = Dimension::TurnRate.given("rate", "1rpm").unwrap().unit().angle_unit();
+    let per_minute = Dimension::TurnRate.given("rate", "1rpm").unwrap().unit().size();
     let milli = Unit::ratio(1, 1000).unwrap();
     let launch = Launch::in_unit([0.1, 0.0, 2280.0], per_minute, TimeOfFlight::Given(0.3)).unwrap();
-    let launch = launch.with_tilt(Angle::Turns(Quantity::new(15.1, degree))).unwrap();
-    let [mass, radius, thickness] = [5.67, 12.13, 1.75].map(|value| Quantity::new(value, milli));
+    let launch = launch.with_tilt(Unit::DEGREE.times(15.1)).unwrap();
+    let [mass, radius, thickness] = [5.67, 12.13, 1.75].map(|value| milli.times(value));
     let toss = Toss::new(Coin::from_cylinder(mass, radius, thickness).unwrap(), launch);
     assert_read_back(&toss);
     let text = toml::to_string(&toss).unwrap();
@@ -135,7 +134,7 @@ fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in()
     assert_eq!(mixed.launch.given_rate().0.as_slice(), [2.0, 0.0, 3.0]);
     assert_eq!(mixed.launch.time_of_flight(), TimeOfFlight::thrown(2.5, DEFAULT_GRAVITY, Some(-0.05)));
     // A unit without a name is written by its size.
-    let odd = Launch::in_unit([1.0, 2.0, 3.0], AngleUnit::Turns(Unit::ratio(1, 7).unwrap()), TimeOfFlight::Given(1.0));
+    let odd = Launch::in_unit([1.0, 2.0, 3.0], Unit::ratio(1, 7).unwrap().of_turn(), TimeOfFlight::Given(1.0));
     assert_read_back(&odd.unwrap());
 }
 

@@ -1,6 +1,6 @@
 //! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
-use dynamics::{AngleUnit, Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
+use dynamics::{Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
 use nalgebra::Vector3;
 use numerics::big::exactly;
 
@@ -233,8 +233,8 @@ fn an_outcome_that_holds_within_a_part_of_the_numbers_is_that_of_all_tosses_arou
 /// In double-double its error would be up to 3e-16 at the largest phases. Half a unit in the last place is 2^-54.
 #[test]
 fn cos_tilt_is_the_nearest_f64_at_large_phases_and_of_rates_in_turns() {
-    let turn = AngleUnit::Turns(Unit::ONE);
-    for (unit, phase) in [(AngleUnit::RADIAN, 8.5e15), (AngleUnit::RADIAN, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
+    let turn = Unit::TURN;
+    for (unit, phase) in [(Unit::ONE, 8.5e15), (Unit::ONE, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
         for index in 1..=100 {
             let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
             let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));

@@ -81,7 +81,7 @@ fn time_margin(toss: &CoinToss) -> Option<f64> {
 #[test]
 fn a_coin_next_to_its_edge_has_its_flips_in_time_in_closed_form() {
     use std::f64::consts::PI;
-    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let quarter = numerics::Unit::TURN.times(0.25);
     let times = (0..12).map(|step| 0.3 + 0.123 * f64::from(step)).chain([1.9, 7.9]);
     for (exponent, time) in
         [-10, -40, -80, -300].into_iter().flat_map(|exponent| times.clone().map(move |time| (exponent, time)))

@@ -134,7 +134,7 @@ impl ProvenCounts {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{AngleUnit, Attitude, Body, Launch, TimeOfFlight};
+    use dynamics::{Attitude, Body, Launch, TimeOfFlight};
     use numerics::big::exactly;
     use numerics::{Ball, DoubleDouble, WideBall};
 
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn balls_of_many_digits_contain_the_numbers_of_more() {
         for toss in tosses().take(100) {
-            let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
+            let degree = numerics::Unit::DEGREE;
             let thrown = TimeOfFlight::Ballistic { speed: 1.0 + toss.launch.flight_time(), gravity: 9.81 };
             let launch = Launch::in_unit([1.0, 2.0, 3.0], degree, thrown).unwrap();
             let toss = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };

@@ -230,7 +230,7 @@ pub(super) fn height<N: Elementary>(vertical: &[N; 3], [w, x, y, z]: &[N; 4]) ->
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{AngleUnit, Coin, Launch, TimeOfFlight, Unit};
+    use dynamics::{Coin, Launch, TimeOfFlight, Unit};
 
     use super::*;
 
@@ -286,7 +286,7 @@ mod tests {
     fn balls_of_a_toss_and_of_its_step_hold_what_more_digits_find() {
         let (double, more) =
             (Ball::new(DoubleDouble::ZERO, 0.0), Ball::new(Big::ZERO.with_precision(384).value(), 0.0));
-        let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let degree = Unit::DEGREE;
         let time = TimeOfFlight::Ballistic { speed: 3.3, gravity: 9.81 };
         let launch = Launch::in_unit([100.0, 30.0, 77.0], degree, time).unwrap().with_tilt(0.3).unwrap();
         let toss = CoinToss { coin: Coin::from_moments(3.0, 1.0).unwrap(), launch };

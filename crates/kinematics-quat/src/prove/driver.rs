@@ -239,7 +239,7 @@ fn cos_tilt(launched: Attitude, turn: [f64; 4]) -> f64 {
 
 /// Roundings of the attitude at landing. Half of a tilt in degrees is rounded to radians.
 fn of_attitude(launched: Attitude) -> f64 {
-    let tilt = launched.tilt().map_or(0.0, |angle| angle.radians().abs());
+    let tilt = launched.tilt().map_or(0.0, |angle| angle.to_f64().abs());
     OF_ATTITUDE + UNIT_ROUNDOFF * tilt
 }
 

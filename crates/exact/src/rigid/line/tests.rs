@@ -1,4 +1,4 @@
-use dynamics::{AngleUnit, Body, Launch, TimeOfFlight};
+use dynamics::{Body, Launch, TimeOfFlight};
 use numerics::big::exactly;
 
 use super::*;
@@ -11,7 +11,7 @@ fn toss() -> Toss {
 /// A rate below 10^-250 in another unit has fewer digits of its own, which are enough for a motion of such rates alone.
 #[test]
 fn tiny_rates_in_another_unit_have_the_outcome_of_the_scaled_motion() {
-    let thirds = AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap());
+    let thirds = dynamics::Unit::ratio(1, 3).unwrap();
     let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
     for time in [0.3, 1.0, 1.7] {
         let [found, expected] = [1e-260, 1.0].map(|scale: f64| {
@@ -26,7 +26,7 @@ fn tiny_rates_in_another_unit_have_the_outcome_of_the_scaled_motion() {
 /// By exact arithmetic, and a ball is as small as the digits allow.
 #[test]
 fn balls_of_rates_contain_the_rates_as_they_were_given_and_all_changes() {
-    let (body, thirds) = (toss().body, AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap()));
+    let (body, thirds) = (toss().body, dynamics::Unit::ratio(1, 3).unwrap());
     for scale in [1.0, 1e200, 1e-300] {
         let rate = [3.1, -0.7, 4.9].map(|part| part * scale);
         let launch = Launch::in_unit(rate, thirds, TimeOfFlight::Given(0.8)).unwrap();

@@ -1,6 +1,6 @@
 //! Tests of proofs by integration over all kinds of bodies, coins among them.
 
-use dynamics::{Angle, AngleUnit, Body, Launch, Quantity, Solver, TimeOfFlight, Unit, Vector3};
+use dynamics::{Body, Launch, Solver, TimeOfFlight, Unit, Vector3};
 use exact::{ExactSolver, certify};
 
 use super::tests::{Numbers, random, solver};
@@ -76,10 +76,9 @@ fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64) -> Toss {
         let size = Vector3::from(rate).norm();
         let time = phase * numbers.between(0.5, 1.0);
         let launch = if index % 3 == 1 {
-            let degree = Unit::ratio(1, 360).unwrap();
             let time = TimeOfFlight::thrown(time, 1.9 * std::f64::consts::PI / 180.0 * size, Some(numbers.next()));
-            let tilt = Angle::Turns(Quantity::new(100.0 * numbers.between(-3.0, 3.0), degree));
-            Launch::in_unit(rate, AngleUnit::Turns(degree), time).and_then(|launch| launch.with_tilt(tilt))
+            let tilt = Unit::DEGREE.times(100.0 * numbers.between(-3.0, 3.0));
+            Launch::in_unit(rate, Unit::DEGREE, time).and_then(|launch| launch.with_tilt(tilt))
         } else {
             Launch::new(rate, TimeOfFlight::Given(time / size))
                 .and_then(|launch| launch.with_tilt(numbers.between(-3.0, 3.0)))
@@ -166,7 +165,7 @@ fn landings_are_those_of_the_solver_and_the_same_at_every_simd_level() {
 fn steady_turns_are_proven() {
     let [generic, symmetric] = [[1.0, 2.0, 2.5], [2.0, 1.0, 1.0]].map(|moments| Body::from_moments(moments).unwrap());
     let turned = Body::from_inertia([1.5, 1.5, 1.5, -0.2, -0.2, -0.2]).unwrap();
-    let (radian, degree) = (AngleUnit::RADIAN, AngleUnit::Turns(Unit::ratio(1, 360).unwrap()));
+    let (radian, degree) = (Unit::ONE, Unit::DEGREE);
     for (body, rate, unit) in [
         (generic, [300.1, 0.0, 0.0], radian),
         (generic, [0.0, 300.1, 0.0], radian),
@@ -216,7 +215,7 @@ fn extreme_numbers_have_bounds_or_errors() {
         let plate = [thin.min(1.0), 1.0, 1.0 + 0.5 * thin.min(1.0)];
         let moments = [[1.0, 1.0, ratio], [thin, 1.0, 1.0], [1.0, 2.0, 2.5], plate][index % 4];
         let Ok(body) = Body::from_moments(moments) else { continue };
-        let unit = if index % 8 < 4 { AngleUnit::RADIAN } else { AngleUnit::Turns(Unit::ratio(1, 360).unwrap()) };
+        let unit = if index % 8 < 4 { Unit::ONE } else { Unit::DEGREE };
         let Ok(launch) = Launch::in_unit(rate, unit, time) else { continue };
         let toss = Toss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
         let found = solver.enclose(&toss);
@@ -225,7 +224,7 @@ fn extreme_numbers_have_bounds_or_errors() {
             assert_eq!(certified, certify(&toss).map(exact::Certificate::outcome), "{toss:?}");
             match &found {
                 // A subnormal rate in degrees loses its digits.
-                Ok(found) => assert!(found.error_bound() < 1e-8 || unit != AngleUnit::RADIAN, "{toss:?}: {found:?}"),
+                Ok(found) => assert!(found.error_bound() < 1e-8 || unit != Unit::ONE, "{toss:?}: {found:?}"),
                 Err(error) => assert!(matches!(error, SolveError::PhaseTooLarge { .. }), "{toss:?}: {error}"),
             }
         }

@@ -1,6 +1,6 @@
 //! Tests of proofs by integration.
 
-use dynamics::{Angle, Body, Coin, Formulation, Launch, Quantity, Scheme, Stepping, TimeOfFlight, Unit};
+use dynamics::{Body, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight, Unit};
 use exact::certify;
 use nalgebra::Vector3;
 
@@ -79,7 +79,7 @@ fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic(
 
 #[test]
 fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
-    let quarter = Angle::Turns(Quantity::new(0.25, Unit::ratio(1, 1).unwrap()));
+    let quarter = Unit::TURN.times(0.25);
     let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(0.0)).unwrap();
     let [right, three] = [launch.with_tilt(quarter).unwrap(), launch.with_tilt(-3.0).unwrap()];
     for (launch, tilt) in [(launch, 0.0), (right, 0.5 * std::f64::consts::PI), (three, 3.0)] {

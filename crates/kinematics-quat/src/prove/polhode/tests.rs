@@ -311,7 +311,7 @@ fn a_shift_is_bounded_where_its_conditions_hold() {
 /// Rates in another unit whose product with it may leave the range of f64, or lose digits below it.
 #[test]
 fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
-    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    let degree = dynamics::Unit::DEGREE;
     for (size, is_told) in [(1e-210, false), (1e-190, true), (1.0, true), (1e190, true), (1e210, false)] {
         let rates = [40.0, -23.0, 63.0].map(|part: f64| part * size);
         let launch = Launch::in_unit(rates, degree, TimeOfFlight::Given(10.0 / size)).unwrap();
@@ -363,7 +363,7 @@ fn the_difference_from_the_model_counts() {
 /// Rates in degrees and the axes of a tensor are rounded, and no more.
 #[test]
 fn the_rounding_of_the_toss_counts() {
-    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    let degree = dynamics::Unit::DEGREE;
     let launch = Launch::in_unit([40.0, -23.0, 63.0], degree, TimeOfFlight::Given(10.0)).unwrap();
     let exact = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
     for (rate, is_about_axis) in [([40.0, 0.0, 0.0], true), ([40.0, 0.0, 1.0], false)] {
