@@ -50,8 +50,8 @@ impl Batch<'_> {
         self.outcomes_by(&Filter::new(self), out)
     }
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`](crate::certify). Fails
-    /// for the first toss that has no outcome.
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by
+    /// [`certify`](crate::certify). Fails for the first toss that has no outcome.
     pub fn count(&self) -> Result<ProvenCounts, Error> {
         self.counts_by(&Filter::new(self))
     }

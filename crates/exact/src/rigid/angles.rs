@@ -11,7 +11,7 @@
 //!
 //! so that an argument turns by ½ωz, and by what the distance ½ ∫|ω⊥| dt takes p or r around the origin. Now
 //! |ω| ≤ g |ω(0)|, with g = √2 or a little more for a plate as thin as rounding
-//! ([`Body::largest_growth_of_rate`](dynamics::Body::largest_growth_of_rate)), and where n is a principal axis |ω⊥|' ≤ |ωz| |ω⊥|, because no ratio
+//! ([`RigidBody::largest_growth_of_rate`](dynamics::RigidBody::largest_growth_of_rate)), and where n is a principal axis |ω⊥|' ≤ |ωz| |ω⊥|, because no ratio
 //! |I_i - I_j|/I_k is above 1 by more than rounding. In a step h with g |ω(0)| h ≤ 1 and ½ e |ω⊥| h ≤ 0.8 |r| the argument of r turns by less
 //! than ½ + asin 0.8 < π/2, so that the nearest branch is the continuous one; likewise for p. The spin about an upright
 //! normal, where r and ω⊥ are 0, needs no short steps. Of another tensor, the whole path ½ g |ω(0)| h is below 0.8 |r|.

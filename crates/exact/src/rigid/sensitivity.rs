@@ -261,13 +261,4 @@ mod tests {
         // Next to the middle axis, what is so small grows in 10^3 rad to a motion that is not that without it.
         assert_eq!(of([1e-320, 5.0, 0.0], 1000.0).unwrap_err().kind(), "not_finite");
     }
-
-    /// One ulp of the rate, 1e-16, moves this flight off the separatrix by radians.
-    #[test]
-    fn the_derivative_next_to_the_separatrix_tells_that_an_ulp_counts() {
-        let launch = Launch::new(Vector3::new(0.75, 1.0, 1.0), TimeOfFlight::Given(100.0)).unwrap();
-        let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
-        let found = Sensitivity::new(&toss).unwrap();
-        assert!(found.attitude.column(0).norm() * f64::EPSILON > 1.0, "{found:?}");
-    }
 }

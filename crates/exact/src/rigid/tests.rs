@@ -51,32 +51,19 @@ fn rates() -> Vec<[f64; 3]> {
     rates
 }
 
+/// A flight in two legs is the flight in one, whatever regime's formula each of them uses. Equal rates about the first and
+/// the last axis of the second body are on its separatrix.
 #[test]
-fn the_attitude_at_launch_is_that_of_the_launch_and_so_are_the_rates() {
+fn a_flight_in_legs_is_the_flight_in_one() {
     for moments in [
         [1.0, 2.0, 2.5],
         [1.0, 2.5, 3.0],
         [2.5, 1.0, 2.0],
         [2.0, 2.5, 1.0],
         [1.0, 2.0, 2.0],
-        [0.0, 1.0, 1.0],
+        [1.0, 1.0, 1.0],
         [0.1, 0.7, 0.8],
     ] {
-        for rate in rates() {
-            let state = ExactMotion::new(&toss(moments, rate, 1.0)).state(0.0).unwrap();
-            assert!(state.attitude.angle_to(&Attitude::IDENTITY) < 1e-15, "{moments:?} {rate:?}: {state:?}");
-            assert!((state.rate - Vector3::from(rate)).amax() < 3e-16, "{moments:?} {rate:?}: {state:?}");
-        }
-    }
-}
-
-/// A flight in two legs is the flight in one, whatever regime's formula each of them uses. Equal rates about the first and
-/// the last axis of the second body are on its separatrix.
-#[test]
-fn a_flight_in_legs_is_the_flight_in_one() {
-    for moments in
-        [[1.0, 2.0, 2.5], [1.0, 2.5, 3.0], [2.5, 1.0, 2.0], [2.0, 2.5, 1.0], [1.0, 2.0, 2.0], [1.0, 1.0, 1.0]]
-    {
         for rate in rates() {
             let whole = ExactMotion::new(&toss(moments, rate, 1.0));
             let middle = whole.state(2.0).unwrap();

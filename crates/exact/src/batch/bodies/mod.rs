@@ -1,5 +1,5 @@
 //! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
-//! SIMD registers and decides nearly all of them; [`certify`] proves the few that it leaves.
+//! SIMD registers and decides nearly all of them; [`certify`](crate::certify) proves the few that it leaves.
 //!
 //! # The motion by theta functions
 //! Single tosses double a point of an elliptic curve ([`rigid`](crate::rigid)). Lanes take functions of two phases, which have
@@ -70,14 +70,14 @@ const TILE: usize = 64;
 const BETWEEN: usize = 18;
 
 impl Batch<'_, Body> {
-    /// Writes the proven outcome of each toss, that of [`certify`]. Fails for the first toss that has no outcome; the
-    /// contents of `out` are then unspecified. Panics if `out` does not have one entry per toss.
+    /// Writes the proven outcome of each toss, that of [`certify`](crate::certify). Fails for the first toss that has no
+    /// outcome; the contents of `out` are then unspecified. Panics if `out` does not have one entry per toss.
     pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
         self.outcomes_by(&Constants::new(&self.tosses), out)
     }
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`]. Fails
-    /// for the first toss that has no outcome.
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by
+    /// [`certify`](crate::certify). Fails for the first toss that has no outcome.
     pub fn count(&self) -> Result<ProvenCounts, Error> {
         self.counts_by(&Constants::new(&self.tosses))
     }

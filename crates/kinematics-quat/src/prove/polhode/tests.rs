@@ -254,17 +254,6 @@ fn a_bound_of_the_exponential_is_above_it_and_close() {
     assert_eq!([exp_above(16.0), exp_above(1e300)], [f64::INFINITY; 2]);
 }
 
-/// Next to the middle axis, where the conditions fail, nothing is said of the shift.
-#[test]
-fn without_its_conditions_there_is_no_shift() {
-    let toss = toss(MOMENTS[0], [1e-9, 1.5, 1e-9]);
-    let mut errors = Errors::at_launch(polhode(&toss), [1e-9, 1.5, 1e-9]);
-    errors.add(&Step { h: 0.1, turn: 0.0, rates: 1e-10, rounding: 1e-10, after: [1e-9, 1.5, 1e-9] });
-    assert!(errors.along.shift == f64::INFINITY && errors.bound().is_finite());
-    errors.add(&Step { h: 1e3, turn: 0.0, rates: 0.0, rounding: 0.0, after: [1e-9, 1.5, 1e-9] });
-    assert!(errors.bound() == f64::INFINITY);
-}
-
 /// The shift is bounded by (17) exactly where the conditions (18) hold, and underflow counts unless no product can have it.
 #[test]
 fn a_shift_is_bounded_where_its_conditions_hold() {

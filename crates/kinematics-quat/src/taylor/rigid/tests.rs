@@ -1,16 +1,10 @@
-//! Tests of one step and of the right-hand side, against the exact motion and central differences.
+//! Tests of one step and of its bounds, against the same series in double-double.
 
-use dynamics::{Attitude, Body, Launch, TimeOfFlight, Vector3};
-use exact::ExactMotion;
+use dynamics::Body;
 use numerics::lanes::{SimdLevel, WithSimd};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
-
-fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> Toss {
-    let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-    Toss { body: Body::from_moments(moments).unwrap(), launch }
-}
 
 /// The turn and half the rates after a step of this order and length.
 struct Step([f64; 3], [f64; 3], usize, f64);
@@ -25,19 +19,6 @@ impl WithSimd for Step {
         let splat = |value: f64| Real::splat(simd, value);
         series.expand(order, rates.map(|rate| splat(0.5 * rate)), couplings.map(|coupling| splat(2.0 * coupling)));
         series.after(order, splat(h)).map(Real::first)
-    }
-}
-
-#[test]
-fn a_step_of_the_largest_order_is_the_exact_motion() {
-    let h = 0.3;
-    for (moments, rate) in [([1.0, 2.0, 2.5], [0.7, -0.4, 1.1]), ([1.0, 1.9, 2.0], [0.1, 0.9, -0.4])] {
-        let toss = toss(moments, rate, h);
-        let exact = ExactMotion::new(&toss).state(h).unwrap();
-        let [w, x, y, z, a, b, c] =
-            SimdLevel::widest().run(Step(rate, toss.body.rigid().couplings(), LARGEST_ORDER, h));
-        assert!(exact.attitude.angle_to(&Attitude::from_components([w, x, y, z]).unwrap()) < 1e-15);
-        assert!((exact.rate - 2.0 * Vector3::new(a, b, c)).norm() < 1e-15);
     }
 }
 
