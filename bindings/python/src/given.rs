@@ -6,7 +6,7 @@
 //! A quantity is a number in SI units, a text with a unit, or a value of a package that has units, which
 //! `unfair_toss.units` converts.
 
-use dynamics::AngleUnit;
+use dynamics::Unit;
 use dynamics::quantity::{Dimension, Given};
 use dynamics::thrown::{Field, Holds};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -201,7 +201,7 @@ pub(crate) fn quantities(field: &str, value: &Bound<'_, PyAny>, expected: &str) 
 
 /// A quantity as it is written in Python: a number in SI units, or a text with its unit.
 pub(crate) fn written<'py>(py: Python<'py>, given: Given) -> PyResult<Bound<'py, PyAny>> {
-    if given.unit().angle_unit() == AngleUnit::RADIAN {
+    if given.unit().size() == Unit::ONE {
         return Ok(given.value().into_pyobject(py)?.into_any());
     }
     Ok(given.to_string().into_pyobject(py)?.into_any())

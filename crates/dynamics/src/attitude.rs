@@ -15,7 +15,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use numerics::big::exactly;
 use numerics::scale::power_of_two_scale;
-use numerics::{Angle, Big, DoubleDouble, Number};
+use numerics::{Big, DoubleDouble, Number, Quantity};
 
 use crate::error::{InputError, require};
 
@@ -38,7 +38,7 @@ enum Origin {
     /// By a turn about x.
     Tilt {
         /// The angle.
-        angle: Angle,
+        angle: Quantity,
         /// Its sine and cosine, to 2^-68.
         sin_cos: [DoubleDouble; 2],
     },
@@ -53,10 +53,8 @@ impl Attitude {
         Self { quaternion, origin: Origin::Quaternion }
     }
 
-    /// The attitude of the quaternion (w, x, y, z), which is divided by its norm.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if the norm is zero or not finite.
+    /// The attitude of the quaternion (w, x, y, z), which is divided by its norm. Fails with [`InputError::OutOfRange`]
+    /// if the norm is zero or not finite.
     pub fn from_components(wxyz: [f64; 4]) -> Result<Self, InputError> {
         let [w, x, y, z] = wxyz;
         // The components are divided by the largest one first, so that no square over- or underflows.
@@ -73,9 +71,6 @@ impl Attitude {
     }
 
     /// The attitude of the quaternion (w, x, y, z) as it is, without a division by its norm, which is 1 to rounding.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if the norm differs from 1 by more than 1e-14.
     pub(crate) fn from_unit_components([w, x, y, z]: [f64; 4]) -> Result<Self, InputError> {
         let quaternion = Quaternion::new(w, x, y, z);
         let norm = quaternion.norm();
@@ -84,12 +79,12 @@ impl Attitude {
     }
 
     /// A turn by a finite `angle` about the lab's x axis; an f64 is in radians.
-    pub fn about_x(angle: impl Into<Angle>) -> Self {
+    pub fn about_x(angle: impl Into<Quantity>) -> Self {
         let angle = angle.into();
-        if angle.is_zero() {
+        if angle.value() == 0.0 {
             return Self::IDENTITY;
         }
-        let (sin, cos) = (0.5 * angle.radians()).sin_cos();
+        let (sin, cos) = (0.5 * angle.to_f64()).sin_cos();
         let quaternion = UnitQuaternion::new_unchecked(Quaternion::new(cos, sin, 0.0, 0.0));
         Self { quaternion, origin: Origin::Tilt { angle, sin_cos: angle.sin_cos() } }
     }
@@ -116,7 +111,7 @@ impl Attitude {
     }
 
     /// The turn about the lab's x axis that it was made by, if it was.
-    pub fn tilt(&self) -> Option<Angle> {
+    pub fn tilt(&self) -> Option<Quantity> {
         if let Origin::Tilt { angle, .. } = self.origin { Some(angle) } else { None }
     }
 
@@ -139,36 +134,35 @@ impl Attitude {
 
     /// The lab's vertical in BF to 2^-67, as a unit vector.
     pub fn exact_vertical(&self) -> [DoubleDouble; 3] {
-        let (vertical, norm) = match self.origin {
+        if *self == Self::IDENTITY { [0.0, 0.0, 1.0].map(DoubleDouble::from) } else { self.in_double_double(|q| q) }
+    }
+
+    /// As [`Attitude::exact_vertical`], after a quarter of a turn about the lab's x axis.
+    pub fn exact_quarter_turned_vertical(&self) -> [DoubleDouble; 3] {
+        match self.origin {
+            Origin::Tilt { sin_cos: [sin, cos], .. } => [DoubleDouble::ZERO, cos, -sin],
+            _ => self.in_double_double(quarter_turned),
+        }
+    }
+
+    /// The vertical after a turn, of an attitude that was not made by a tilt.
+    fn in_double_double(&self, turned: fn([DoubleDouble; 4]) -> [DoubleDouble; 4]) -> [DoubleDouble; 3] {
+        let components = match self.origin {
             Origin::Tilt { sin_cos: [sin, cos], .. } => return [DoubleDouble::ZERO, sin, cos],
-            Origin::Quaternion if *self == Self::IDENTITY => return [0.0, 0.0, 1.0].map(DoubleDouble::from),
-            Origin::Quaternion => vertical_in_body(self.components().map(DoubleDouble::from)),
-            Origin::Components(given) => vertical_in_body(in_a_power_of_two(given).map(DoubleDouble::from)),
+            Origin::Quaternion => self.components(),
+            Origin::Components(given) => in_a_power_of_two(given),
         };
+        let (vertical, norm) = vertical_in_body(turned(components.map(DoubleDouble::from)));
         vertical.map(|part| part / norm)
     }
 
     /// As [`Attitude::vertical`], exactly, or for an attitude made by a tilt to so many binary `digits`. What is 0 is 0.
     pub fn vertical_in_digits(&self, digits: usize) -> ([Big; 3], Big) {
-        match self.origin {
-            Origin::Tilt { angle, .. } => {
-                let [sin, cos] = angle.sin_cos_in_digits(digits);
-                ([exactly(0.0), sin, cos], exactly(1.0))
-            }
-            Origin::Quaternion | Origin::Components(_) => vertical_in_body(self.given_components().map(exactly)),
+        if let Origin::Tilt { angle, .. } = self.origin {
+            let [sin, cos] = angle.sin_cos_in_digits(digits);
+            return ([exactly(0.0), sin, cos], exactly(1.0));
         }
-    }
-
-    /// As [`Attitude::exact_vertical`], after a quarter of a turn about the lab's x axis.
-    pub fn exact_quarter_turned_vertical(&self) -> [DoubleDouble; 3] {
-        let (vertical, norm) = match self.origin {
-            Origin::Tilt { sin_cos: [sin, cos], .. } => return [DoubleDouble::ZERO, cos, -sin],
-            Origin::Quaternion => vertical_in_body(quarter_turned(self.components().map(DoubleDouble::from))),
-            Origin::Components(given) => {
-                vertical_in_body(quarter_turned(in_a_power_of_two(given).map(DoubleDouble::from)))
-            }
-        };
-        vertical.map(|part| part / norm)
+        vertical_in_body(self.given_components().map(exactly))
     }
 
     /// As [`Attitude::vertical_in_digits`], after a quarter of a turn about the lab's x axis.
@@ -235,7 +229,7 @@ fn in_a_power_of_two(components: [f64; 4]) -> [f64; 4] {
 ///
 /// The vertical in BF is the third row of the direction cosine matrix. The components may be any kind of number.
 #[inline(always)]
-fn vertical_in_body<N: Number>([w, x, y, z]: [N; 4]) -> ([N; 3], N) {
+pub fn vertical_in_body<N: Number>([w, x, y, z]: [N; 4]) -> ([N; 3], N) {
     let product = |a: &N, b: &N| a.clone() * b.clone();
     let twice = |half: N| half.clone() + half;
     let (upright, inverted) = (product(&w, &w) + product(&z, &z), product(&x, &x) + product(&y, &y));

@@ -63,11 +63,9 @@ const THINNEST_TENSOR: f64 = 9.094_947_017_729_282e-13; // 2^-40
 impl Body {
     /// A body with the principal moments `moments` = [I1, I2, I3] (kg m²) about the axes x, y and z = n of BF.
     ///
-    /// With I1 = I2 it is a [`Coin`]: see [`Body::Coin`].
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for a moment that is not finite, negative, or below 2.3e-308 and not 0;
-    /// [`InputError::NoBody`] for one that is larger than the sum of the others.
+    /// With I1 = I2 it is a [`Coin`]: see [`Body::Coin`]. Fails with [`InputError::OutOfRange`] for a moment that is
+    /// not finite, negative, or below 2.3e-308 and not 0; [`InputError::NoBody`] for one that is larger than the sum of
+    /// the others.
     pub fn from_moments(moments: [f64; 3]) -> Result<Self, InputError> {
         for ((field, _), moment) in MOMENTS.into_iter().zip(moments) {
             let normal = moment == 0.0 || moment >= f64::MIN_POSITIVE;
@@ -86,10 +84,8 @@ impl Body {
         Ok(Self::Rigid(RigidBody::of(Origin::Moments(moments))))
     }
 
-    /// A body with the moments `[I1, I3]` of a coin or `[I1, I2, I3]` (kg m²), as files and options list them.
-    ///
-    /// # Errors
-    /// As [`Coin::from_moments`] and [`Body::from_moments`]; [`InputError::Malformed`] for another number of moments.
+    /// A body with the moments `[I1, I3]` of a coin or `[I1, I2, I3]` (kg m²), as files and options list them. Fails as
+    /// [`Coin::from_moments`] and [`Body::from_moments`]; [`InputError::Malformed`] for another number of moments.
     pub fn from_listed_moments(moments: &[f64]) -> Result<Self, InputError> {
         match *moments {
             [i1, i3] => Coin::from_moments(i1, i3).map(Self::from),
@@ -104,9 +100,6 @@ impl Body {
 
     /// A body with the elements `[Jxx, Jyy, Jzz, Jxy, Jxz, Jyz]` (kg m²) of its inertia tensor; see
     /// [`Body::from_tensor`].
-    ///
-    /// # Errors
-    /// As [`Body::from_tensor`].
     pub fn from_inertia([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Result<Self, InputError> {
         Self::from_tensor([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     }
@@ -114,12 +107,10 @@ impl Body {
     /// A body with the inertia `tensor` J (kg m²) about its centre of mass, row by row in the axes of BF.
     ///
     /// A diagonal tensor is the same as its moments. A rod that is not along an axis can't be given in this way,
-    /// because its moment 0 can't be told from rounding.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for an element that is not finite, a tensor that is 0 or subnormal, or one whose
-    /// smallest principal moment is not above 1e-12 of the largest; [`InputError::Malformed`] for a tensor that is not
-    /// symmetric; [`InputError::NoBody`] for principal moments that break the inequality.
+    /// because its moment 0 can't be told from rounding. Fails with [`InputError::OutOfRange`] for an element that is
+    /// not finite, a tensor that is 0 or subnormal, or one whose smallest principal moment is not above 1e-12 of the
+    /// largest; [`InputError::Malformed`] for a tensor that is not symmetric; [`InputError::NoBody`] for principal
+    /// moments that break the inequality.
     pub fn from_tensor(tensor: [[f64; 3]; 3]) -> Result<Self, InputError> {
         let elements = tensor.iter().flatten();
         let finite = elements.clone().all(|element| element.is_finite());

@@ -37,19 +37,3 @@ pub fn rate_by_momentum(toss: &CoinToss, attitude: &Attitude) -> Vector3<f64> {
     let landed = attitude.lab_to_body(&toss.launch.attitude().body_to_lab(&momentum));
     Vector3::new(landed.x * scale, landed.y * scale, launched.z)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::Body;
-
-    /// Compares (1) with Euler's equations for any rigid body, I ω' = I ω × ω, in each component.
-    #[test]
-    fn the_accelerations_are_those_of_eulers_equations() {
-        let (body, rate) = (Body::from_moments([2.0, 2.0, 3.0]).unwrap(), Vector3::new(0.5, -1.5, 4.0));
-        let torque = body.angular_momentum(&rate).cross(&rate);
-        let (x, y) = transverse_acceleration(body_precession_rate(1.5, rate.z), rate.x, rate.y);
-        assert_eq!((2.0 * x, 2.0 * y, 0.0), (torque.x, torque.y, torque.z));
-        assert_eq!((x, y), (3.0, 1.0));
-    }
-}

@@ -54,10 +54,8 @@ pub const CATALOGUE: &[Entry] = &[
     real("euro-2", "2 euro", (8.50, 25.75, 2.20), EU_COUNCIL),
 ];
 
-/// The coin called `name`.
-///
-/// # Errors
-/// [`InputError::UnknownName`] with the list of known names; [`InputError::OutsideModel`] for one of [`BODIES`].
+/// The coin called `name`. Fails with [`InputError::UnknownName`] with the list of known names;
+/// [`InputError::OutsideModel`] for one of [`BODIES`].
 pub fn named_coin(name: &str) -> Result<Coin, InputError> {
     if BODIES.iter().any(|entry| entry.name == name) {
         return Err(crate::coin::NO_COIN);

@@ -30,11 +30,8 @@ pub struct Tosses<'a, B = Coin> {
 impl<'a, B: Copy + Into<Body>> Tosses<'a, B> {
     /// Tosses of a coin or a body with the body rates `rates` (body frame, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s)
     /// under `gravity` (m/s²) and caught at the same height. With a gravity of 2 m/s² the speed is the time of flight
-    /// in seconds.
-    ///
-    /// # Errors
-    /// [`InputError`] if the columns differ in length, or for a gravity that is not positive and finite. Each toss is
-    /// checked only when it is solved.
+    /// in seconds. Fails if the columns differ in length, or for a gravity that is not positive and finite. Each toss
+    /// is checked only when it is solved.
     pub fn new(
         body: B,
         attitude: Attitude,
@@ -86,9 +83,6 @@ impl<'a, B: Copy + Into<Body>> Tosses<'a, B> {
     }
 
     /// Launch number `index`, which is below [`Tosses::len`].
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn launch(&self, index: usize) -> Result<Launch, InputError> {
         let [x, y, z] = self.rates.map(|column| column[index]);
         let time = TimeOfFlight::Ballistic { speed: self.speeds[index], gravity: self.gravity };
@@ -96,26 +90,18 @@ impl<'a, B: Copy + Into<Body>> Tosses<'a, B> {
     }
 
     /// Toss number `index`, which is below [`Tosses::len`].
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn toss(&self, index: usize) -> Result<Toss, InputError> {
         Ok(Toss::new(self.body, self.launch(index)?))
     }
 
-    /// The result of `solve` for toss `index`.
-    ///
-    /// # Errors
-    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
+    /// The result of `solve` for toss `index`. Fails with [`Error::BadLaunch`] if the toss is invalid,
+    /// [`Error::Launch`] if `solve` fails, each with the index.
     pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
         let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
         solve(&toss).map_err(|source| Error::of_launch(index, &toss, source))
     }
 
-    /// All tosses, one after the other.
-    ///
-    /// # Errors
-    /// [`Error::BadLaunch`] for the first that is invalid.
+    /// All tosses, one after the other. Fails with [`Error::BadLaunch`] for the first that is invalid.
     pub fn each(&self) -> Result<Vec<Toss>, Error> {
         (0..self.len()).map(|index| self.solve(index, |toss| Ok(*toss))).collect()
     }
@@ -128,9 +114,6 @@ impl<'a, B: Copy + Into<Body>> Tosses<'a, B> {
 
 impl Tosses<'_, Coin> {
     /// The result of `solve` for toss `index`, as [`Tosses::solve`] returns it, by a formula for coins alone.
-    ///
-    /// # Errors
-    /// As [`Tosses::solve`].
     pub fn solve_coin<T>(&self, index: usize, solve: impl Fn(&CoinToss) -> Result<T, SolveError>) -> Result<T, Error> {
         self.solve(index, |toss| solve(&CoinToss { coin: self.body, launch: toss.launch }))
     }

@@ -45,17 +45,13 @@ impl SolverConfig {
         Self { scheme: Some(scheme.into()), ..self }
     }
 
-    /// The same solver with steps that keep the local error below `tolerance`, instead of any step.
-    ///
-    /// # Errors
+    /// The same solver with steps that keep the local error below `tolerance`, instead of any step. Fails with
     /// [`InputError::OutOfRange`] for a tolerance below ε = 2^-52 or not below 1.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self, InputError> {
         self.with_control(StepControl::Tolerance(tolerance))
     }
 
-    /// The same solver with equal steps of at most `step` (s), instead of any tolerance.
-    ///
-    /// # Errors
+    /// The same solver with equal steps of at most `step` (s), instead of any tolerance. Fails with
     /// [`InputError::OutOfRange`] for a step that is not positive and finite.
     pub fn with_step(self, step: f64) -> Result<Self, InputError> {
         self.with_control(StepControl::Step(step))
@@ -93,11 +89,9 @@ impl SolverConfig {
         self.formulation
     }
 
-    /// The settings for the solver of this name among `entries`: what is left out is the solver's default.
-    ///
-    /// # Errors
-    /// [`InputError`] for a solver that is not among them, for a scheme that it does not offer, for a tolerance or a step that
-    /// the scheme does not take, and for any setting that would have no effect, with the solvers that it is for.
+    /// The settings for the solver of this name among `entries`: what is left out is the solver's default. Fails for a
+    /// solver that is not among them, for a scheme that it does not offer, for a tolerance or a step that the scheme
+    /// does not take, and for any setting that would have no effect, with the solvers that it is for.
     pub fn settings(&self, entries: &[SolverEntry]) -> Result<Settings, InputError> {
         let entry = find_named("solver", &self.name, entries, |entry| entry.name())?;
         let scheme = match &self.scheme {

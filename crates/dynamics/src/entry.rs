@@ -105,9 +105,6 @@ impl SolverEntry {
     }
 
     /// The scheme called `name` among those of the solver.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`] with the names of the solver's schemes.
     pub fn scheme(&self, name: &str) -> Result<Scheme, InputError> {
         find_named("scheme of this solver", name, &self.schemes, |offered| offered.name()).copied()
     }
@@ -120,10 +117,8 @@ impl SolverEntry {
     }
 
     /// Makes the solver with `settings` and wraps it in [`Checked`]. A closed form accepts any stepping and ignores it.
-    ///
-    /// # Errors
-    /// [`InputError`] for a scheme that the solver does not offer, if making the solver panics, and if its name is not
-    /// that of its entry.
+    /// Fails for a scheme that the solver does not offer, if making the solver panics, and if its name is not that of
+    /// its entry.
     pub fn solver(&self, settings: &Settings) -> Result<Box<dyn Solver>, InputError> {
         if self.integrates() {
             self.scheme(settings.stepping.scheme().name())?;

@@ -127,18 +127,12 @@ impl InputError {
 }
 
 /// Returns `value` if it is finite and `holds` is true, else the error that names the field and its `valid` range.
-///
-/// # Errors
-/// [`InputError::OutOfRange`].
 #[inline]
 pub fn require(field: &'static str, value: f64, valid: &'static str, holds: bool) -> Result<f64, InputError> {
     if value.is_finite() && holds { Ok(value) } else { Err(InputError::OutOfRange { field, value, valid }) }
 }
 
 /// Returns the item of `items` called `value`, or the error that lists the known names.
-///
-/// # Errors
-/// [`InputError::UnknownName`].
 pub fn find_named<'a, T>(
     field: &'static str,
     value: &str,

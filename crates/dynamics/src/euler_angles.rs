@@ -106,11 +106,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn cos_beta_is_the_tilt() {
-        for angles in SAMPLES {
-            assert!((angles.attitude().cos_tilt() - angles.beta.cos()).abs() < 1e-15);
-        }
-    }
 }

@@ -49,9 +49,6 @@ pub struct Flight {
 
 impl Flight {
     /// The dimensionless flight of `toss`.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if the phase exceeds 2^53 rad.
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let (launched, duration) = (toss.launch.rate(), toss.launch.flight_time());
         let scale = power_of_two_scale(launched.amax());
@@ -72,9 +69,6 @@ impl Flight {
     /// [`integrate`](crate::integrate::integrate). For a [long](Self::is_long) flight the tolerance is
     /// [tightened](Self::tightened), and no step turns by more than the system's
     /// [largest turn](OdeSystem::LARGEST_TURN).
-    ///
-    /// # Errors
-    /// As [`integrate`](crate::integrate::integrate).
     #[cfg(feature = "integrators")]
     pub fn integrate<const N: usize, S: OdeSystem<N>>(
         &self,
@@ -244,17 +238,6 @@ mod tests {
             let along = flight.in_body([0.1, 0.2, 0.3]);
             assert_eq!(flight.turn_in_body([0.9, 0.1, 0.2, 0.3]), [0.9, along.x, along.y, along.z]);
         }
-    }
-
-    #[test]
-    fn the_acceleration_about_principal_axes_is_that_of_the_body() {
-        let tensor = [[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]];
-        let body = Body::from_tensor(tensor).unwrap();
-        let flight = of_body(body, [1.0, -0.5, 1.25], 0.5);
-        let found = flight.in_body(crate::body::principal_acceleration(body.rigid().couplings(), flight.rate.into()));
-        let rate = Vector3::new(1.0, -0.5, 1.25);
-        let torque = body.angular_momentum(&rate).cross(&rate);
-        assert!((body.angular_momentum(&found) - torque).norm() < 1e-14, "{found:?}");
     }
 
     #[test]

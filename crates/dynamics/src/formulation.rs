@@ -39,9 +39,6 @@ impl Formulation {
     pub const ALL: [Self; 3] = [Self::MOMENTUM, Self::VERTICAL, Self::RAW];
 
     /// The formulation called `name`.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`].
     pub fn named(name: &str) -> Result<Self, InputError> {
         find_named("formulation", name, &Self::ALL, |formulation| formulation.name).copied()
     }

@@ -62,9 +62,6 @@ pub struct FreeRotation {
 
 impl FreeRotation {
     /// The rotation of `toss`.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
     pub fn new(toss: &CoinToss) -> Result<Self, SolveError> {
         Ok(Self {
             flight: Flight::new(&Toss::from(*toss))?,
@@ -111,9 +108,7 @@ impl FreeRotation {
         Work { rhs_calls: self.calls.load(Ordering::Relaxed), accepted_steps, rejected_steps }
     }
 
-    /// The landing from the state at its end. The quaternion is divided by its norm.
-    ///
-    /// # Errors
+    /// The landing from the state at its end. The quaternion is divided by its norm. Fails with
     /// [`SolveError::NotFinite`] if the state is not finite, or its quaternion is 0.
     pub fn landing(&self, end: &[f64; 7], work: Work) -> Result<Landing, SolveError> {
         let &[w, x, y, z, rate_x, rate_y, rate_z] = end;
@@ -129,9 +124,6 @@ impl FreeRotation {
 
     /// `stepping` in the units of the system. The tolerance is [tightened](Flight::tightened) for a flight of more than
     /// 100 rad; a step becomes the longest one, not above it, that divides the [`duration`](Self::duration) evenly.
-    ///
-    /// # Errors
-    /// [`SolveError::StepLimit`] for more than [`STEP_LIMIT`](crate::stepping::STEP_LIMIT) steps.
     pub fn stepping(&self, stepping: &Stepping) -> Result<Stepping, SolveError> {
         let control = match stepping.control() {
             StepControl::Tolerance(tolerance) => StepControl::Tolerance(self.flight.tightened(tolerance)),

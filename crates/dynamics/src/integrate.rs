@@ -56,11 +56,9 @@ impl RungeKutta {
 /// Integrates `system` from `start` over `duration` ≥ 0 (s), and returns the end state and the work.
 ///
 /// The derivatives of `system` are taken with respect to the dimensionless time `scale` × t, where `scale` is a power
-/// of two (rad/s); see [`power_of_two_scale`](numerics::scale::power_of_two_scale).
-///
-/// # Errors
-/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a scheme that is
-/// not in [`Scheme::RUNGE_KUTTA`].
+/// of two (rad/s); see [`power_of_two_scale`](numerics::scale::power_of_two_scale). Fails with [`SolveError`] with the
+/// time (s) at which the integration stopped; [`SolveError::NotOffered`] for a scheme that is not in
+/// [`Scheme::RUNGE_KUTTA`].
 pub fn integrate<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
@@ -81,9 +79,6 @@ pub(crate) struct Span {
 }
 
 /// [`integrate`] with a longest step.
-///
-/// # Errors
-/// As [`integrate`].
 pub(crate) fn integrate_within<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,

@@ -1,7 +1,7 @@
 //! [`Launch`]: the body rate ω, the attitude Q0 and the time of flight T of a body that leaves the hand.
 
 use nalgebra::Vector3;
-use numerics::{Angle, AngleUnit, DoubleDouble, UNIT_ROUNDOFF};
+use numerics::{DoubleDouble, Quantity, UNIT_ROUNDOFF, Unit};
 
 use crate::attitude::Attitude;
 use crate::error::{InputError, require};
@@ -13,7 +13,7 @@ use crate::time_of_flight::TimeOfFlight;
 pub struct Launch {
     rate: Vector3<f64>,
     /// The rate as it was given, where that was not in rad/s.
-    given_rate: Option<(Vector3<f64>, AngleUnit)>,
+    given_rate: Option<(Vector3<f64>, Unit)>,
     attitude: Attitude,
     time_of_flight: TimeOfFlight,
     /// T (s), stored because every flight needs it.
@@ -22,11 +22,8 @@ pub struct Launch {
 
 impl Launch {
     /// A launch from horizontal with heads up, with the body rate `rate` (BF, the body frame; rad/s), as a vector or as an
-    /// array.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an impossible
-    /// time of flight (see [`TimeOfFlight`] for the valid ranges).
+    /// array. Fails with [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an
+    /// impossible time of flight (see [`TimeOfFlight`] for the valid ranges).
     #[inline]
     pub fn new(rate: impl Into<Vector3<f64>>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         let rate = rate.into();
@@ -39,30 +36,22 @@ impl Launch {
     }
 
     /// As [`Launch::new`], with the body rate in a `unit` of angle per second.
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn in_unit(
         rate: impl Into<Vector3<f64>>,
-        unit: AngleUnit,
+        unit: Unit,
         time_of_flight: TimeOfFlight,
     ) -> Result<Self, InputError> {
         let rate = rate.into();
-        let launch = Self::new(rate.map(|part| unit.times(part).radians()), time_of_flight)?;
-        Ok(Self { given_rate: (unit != AngleUnit::RADIAN).then_some((rate, unit)), ..launch })
+        let launch = Self::new(rate.map(|part| unit.times(part).to_f64()), time_of_flight)?;
+        Ok(Self { given_rate: (unit != Unit::ONE).then_some((rate, unit)), ..launch })
     }
 
     /// A launch with the attitude and the body rate of `state`, to continue a flight.
-    ///
-    /// # Errors
-    /// As [`Launch::new`].
     pub fn from_state(state: &State, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         Ok(Self::new(state.rate, time_of_flight)?.with_attitude(state.attitude))
     }
 
-    /// The same launch with another time of flight. The body rate stays as it was given, in its unit.
-    ///
-    /// # Errors
+    /// The same launch with another time of flight. The body rate stays as it was given, in its unit. Fails with
     /// [`InputError::OutOfRange`] for an impossible time of flight.
     pub fn with_time_of_flight(self, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         // As in `new`, -0 is 0.
@@ -77,20 +66,17 @@ impl Launch {
     }
 
     /// The same launch with the horizontal coin turned by `tilt` about the x axis of LF (α = γ = 0, β = `tilt`). An f64 is in
-    /// radians.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if `tilt` is not finite.
-    pub fn with_tilt(self, tilt: impl Into<Angle>) -> Result<Self, InputError> {
+    /// radians. Fails with [`InputError::OutOfRange`] if `tilt` is not finite.
+    pub fn with_tilt(self, tilt: impl Into<Quantity>) -> Result<Self, InputError> {
         let tilt = tilt.into();
-        require("tilt [rad]", tilt.radians(), "finite", true)?;
+        require("tilt [rad]", tilt.to_f64(), "finite", true)?;
         Ok(self.with_attitude(Attitude::about_x(tilt)))
     }
 
     /// ω at launch as it was given, and in which unit of angle per second.
     #[inline]
-    pub fn given_rate(&self) -> (Vector3<f64>, AngleUnit) {
-        self.given_rate.unwrap_or((self.rate, AngleUnit::RADIAN))
+    pub fn given_rate(&self) -> (Vector3<f64>, Unit) {
+        self.given_rate.unwrap_or((self.rate, Unit::ONE))
     }
 
     /// ω at launch (BF, rad/s) as it was given: without an error if that was in rad/s, else to 16 u² of each component, with
@@ -134,7 +120,7 @@ impl Launch {
     /// attitudes.
     pub fn tilt(&self) -> Option<f64> {
         let horizontal = (self.attitude == Attitude::IDENTITY).then_some(0.0);
-        self.attitude.tilt().map(Angle::radians).or(horizontal)
+        self.attitude.tilt().map(Quantity::to_f64).or(horizontal)
     }
 
     /// How the time of flight was given.
@@ -151,14 +137,12 @@ impl Launch {
 
 #[cfg(test)]
 mod tests {
-    use numerics::Unit;
-
     use super::*;
 
     /// The error is judged by the rate in twice the digits.
     #[test]
     fn the_rate_is_within_its_error_of_what_was_given() {
-        let unit = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let unit = Unit::DEGREE;
         let degrees = |rate: [f64; 3]| Launch::in_unit(rate, unit, TimeOfFlight::Given(1.0)).unwrap();
         for size in [1e-190, 1.0, 12.3, 1e200] {
             let launch = degrees([size, -0.7 * size, 0.31 * size]);

@@ -99,7 +99,7 @@ pub use formulation::{Formulation, Frame};
 pub use free_rotation::FreeRotation;
 pub use launch::Launch;
 pub use nalgebra::{self, Vector3};
-pub use numerics::{Angle, AngleUnit, Quantity, Unit};
+pub use numerics::{Quantity, Unit};
 pub use outcome::Outcome;
 pub use phase::Phases;
 pub use precession::rate_of_precession;

@@ -39,9 +39,6 @@ use crate::toss::Toss;
 pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
 /// Returns `phase` (rad) if it is at most [`LARGEST_PHASE`].
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`], also if `phase` is NaN.
 #[inline]
 pub fn require_phase(phase: f64) -> Result<f64, SolveError> {
     if phase <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase }) }
@@ -60,9 +57,6 @@ pub struct Phases {
 
 impl Phases {
     /// Those of the flight of `toss`.
-    ///
-    /// # Errors
-    /// As [`require_phase`].
     #[inline]
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let launched = toss.launch.rate();
@@ -75,9 +69,6 @@ impl Phases {
 }
 
 /// The [largest](Phases::largest) phase (rad) after a dimensionless `time` at a dimensionless `rate` (BF) at launch.
-///
-/// # Errors
-/// As [`require_phase`].
 #[inline]
 pub(crate) fn largest(body: &Body, rate: &Vector3<f64>, time: f64) -> Result<f64, SolveError> {
     // Without a rate the phase is 0, also where the product would be 0 · ∞ = NaN.
@@ -157,15 +148,6 @@ mod tests {
         for (rate, time) in [(1.0, 1e16), (1e300, 1e300)] {
             let error = phases([1.0, 2.0, 2.5], [rate, 0.0, 0.0], time).unwrap_err();
             assert_eq!(error.kind(), "phase_too_large");
-        }
-    }
-
-    /// |ω|² + ac ω2² does not change, so that |ω| stays below √2 times its value at launch.
-    #[test]
-    fn the_moments_fulfil_the_identity_on_which_the_bound_rests() {
-        for moments in [[1.0, 2.0, 2.5], [0.3, 1.0, 1.3], [1e-9, 1.0, 1.0 + 5e-10], [1.0, 1.001, 1.002]] {
-            let [a, b, c] = Body::from_moments(moments).unwrap().rigid().couplings().map(f64::abs);
-            assert!((a - b + c - a * b * c).abs() < 1e-15 && a.max(b).max(c) <= 1.0 + 1e-15, "{moments:?}");
         }
     }
 

@@ -10,7 +10,7 @@ use std::fmt;
 
 use numerics::double_double::{DoubleDouble, two_sum};
 use numerics::scale::mantissa_and_exponent;
-use numerics::{Angle, AngleUnit, Quantity, Unit};
+use numerics::{Quantity, Unit};
 
 use crate::error::InputError;
 
@@ -45,8 +45,8 @@ pub enum Dimension {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedUnit {
     name: &'static str,
-    /// Its size in the SI unit; of any kind, a rational number of it stands as `Radians`.
-    size: AngleUnit,
+    /// Its size in the SI unit.
+    size: Unit,
 }
 
 /// A number and the unit that it was given in.
@@ -57,11 +57,11 @@ pub struct Given {
 }
 
 const fn unit(name: &'static str, numerator: u16, denominator: u32) -> NamedUnit {
-    NamedUnit { name, size: AngleUnit::Radians(ratio(numerator, denominator)) }
+    NamedUnit { name, size: ratio(numerator, denominator) }
 }
 
 const fn part_of_turn(name: &'static str, denominator: u32) -> NamedUnit {
-    NamedUnit { name, size: AngleUnit::Turns(ratio(1, denominator)) }
+    NamedUnit { name, size: ratio(1, denominator).of_turn() }
 }
 
 const fn ratio(numerator: u16, denominator: u32) -> Unit {
@@ -74,51 +74,56 @@ const fn ratio(numerator: u16, denominator: u32) -> Unit {
 /// What is expected of a quantity, in words, and its units, the first of which is the SI unit.
 type Row = (&'static str, &'static [NamedUnit]);
 
-const ANGLE: Row = (
-    "an angle in rad, deg, ° or rev (rad without a unit)",
-    &[unit("rad", 1, 1), part_of_turn("deg", 360), part_of_turn("°", 360), part_of_turn("rev", 1)],
-);
-const TURN_RATE: Row = (
-    "a rate in rad/s, deg/s, °/s, rev/s or rpm (rad/s without a unit)",
-    &[
-        unit("rad/s", 1, 1),
-        part_of_turn("deg/s", 360),
-        part_of_turn("°/s", 360),
-        part_of_turn("rev/s", 1),
-        part_of_turn("rpm", 60),
-    ],
-);
-const SPEED: Row = (
-    "a speed in m/s, cm/s, km/h, ft/s or mph (m/s without a unit)",
-    &[unit("m/s", 1, 1), unit("cm/s", 1, 100), unit("km/h", 5, 18), unit("ft/s", 381, 1250), unit("mph", 1397, 3125)],
-);
-const TIME: Row =
-    ("a time in s, ms or µs (s without a unit)", &[unit("s", 1, 1), unit("ms", 1, 1000), unit("µs", 1, 1_000_000)]);
-const ACCELERATION: Row = (
-    "an acceleration in m/s², cm/s² or ft/s² (m/s² without a unit)",
-    &[unit("m/s²", 1, 1), unit("cm/s²", 1, 100), unit("ft/s²", 381, 1250)],
-);
-const LENGTH: Row = (
-    "a length in m, cm, mm, in or ft (m without a unit)",
-    &[unit("m", 1, 1), unit("cm", 1, 100), unit("mm", 1, 1000), unit("in", 127, 5000), unit("ft", 381, 1250)],
-);
-const MASS: Row =
-    ("a mass in kg, g or mg (kg without a unit)", &[unit("kg", 1, 1), unit("g", 1, 1000), unit("mg", 1, 1_000_000)]);
-const INERTIA: Row = (
-    "a moment of inertia in kg·m², g·cm² or g·mm² (kg·m² without a unit)",
-    &[unit("kg·m²", 1, 1), unit("g·cm²", 1, 10_000_000), unit("g·mm²", 1, 1_000_000_000)],
-);
-const NUMBER: Row = ("a number", &[unit("", 1, 1)]);
+/// The rows of [`Dimension::ALL`], in their order.
+const ROWS: [Row; 9] = [
+    (
+        "an angle in rad, deg, ° or rev (rad without a unit)",
+        &[unit("rad", 1, 1), part_of_turn("deg", 360), part_of_turn("°", 360), part_of_turn("rev", 1)],
+    ),
+    (
+        "a rate in rad/s, deg/s, °/s, rev/s or rpm (rad/s without a unit)",
+        &[
+            unit("rad/s", 1, 1),
+            part_of_turn("deg/s", 360),
+            part_of_turn("°/s", 360),
+            part_of_turn("rev/s", 1),
+            part_of_turn("rpm", 60),
+        ],
+    ),
+    (
+        "a speed in m/s, cm/s, km/h, ft/s or mph (m/s without a unit)",
+        &[
+            unit("m/s", 1, 1),
+            unit("cm/s", 1, 100),
+            unit("km/h", 5, 18),
+            unit("ft/s", 381, 1250),
+            unit("mph", 1397, 3125),
+        ],
+    ),
+    ("a time in s, ms or µs (s without a unit)", &[unit("s", 1, 1), unit("ms", 1, 1000), unit("µs", 1, 1_000_000)]),
+    (
+        "an acceleration in m/s², cm/s² or ft/s² (m/s² without a unit)",
+        &[unit("m/s²", 1, 1), unit("cm/s²", 1, 100), unit("ft/s²", 381, 1250)],
+    ),
+    (
+        "a length in m, cm, mm, in or ft (m without a unit)",
+        &[unit("m", 1, 1), unit("cm", 1, 100), unit("mm", 1, 1000), unit("in", 127, 5000), unit("ft", 381, 1250)],
+    ),
+    ("a mass in kg, g or mg (kg without a unit)", &[unit("kg", 1, 1), unit("g", 1, 1000), unit("mg", 1, 1_000_000)]),
+    (
+        "a moment of inertia in kg·m², g·cm² or g·mm² (kg·m² without a unit)",
+        &[unit("kg·m²", 1, 1), unit("g·cm²", 1, 10_000_000), unit("g·mm²", 1, 1_000_000_000)],
+    ),
+    ("a number", &[unit("", 1, 1)]),
+];
 
 /// The size of a unit without a name, such as `@1/7` or `@1/7turn`.
-fn size(text: &str) -> Option<AngleUnit> {
+fn size(text: &str) -> Option<Unit> {
     let text = text.strip_prefix('@')?;
-    let (ratio, of): (&str, fn(Unit) -> AngleUnit) = match text.strip_suffix("turn") {
-        Some(ratio) => (ratio, AngleUnit::Turns),
-        None => (text, AngleUnit::Radians),
-    };
-    let (numerator, denominator) = ratio.split_once('/')?;
-    Some(of(Unit::ratio(numerator.parse().ok()?, denominator.parse().ok()?)?))
+    let of_turn = text.strip_suffix("turn");
+    let (numerator, denominator) = of_turn.unwrap_or(text).split_once('/')?;
+    let ratio = Unit::ratio(numerator.parse().ok()?, denominator.parse().ok()?)?;
+    Some(if of_turn.is_some() { ratio.of_turn() } else { ratio })
 }
 
 impl NamedUnit {
@@ -140,22 +145,17 @@ impl NamedUnit {
             return value;
         }
         let (mantissa, exponent) = mantissa_and_exponent(value);
-        let (AngleUnit::Radians(ratio) | AngleUnit::Turns(ratio)) = self.size;
-        let product = DoubleDouble::product(mantissa, f64::from(ratio.numerator()));
+        let product = DoubleDouble::product(mantissa, f64::from(self.size.numerator()));
         // The difference between 2π and its nearest f64.
         const REST_OF_TURN: f64 = 2.449_293_598_294_706_4e-16;
-        let product = if self.is_part_of_turn() { product * two_sum(TAU, REST_OF_TURN) } else { product };
-        let si = product / DoubleDouble::from(f64::from(ratio.denominator()));
+        let product = if self.size.is_of_turn() { product * two_sum(TAU, REST_OF_TURN) } else { product };
+        let si = product / DoubleDouble::from(f64::from(self.size.denominator()));
         si.times_power_of_two(exponent).hi()
     }
 
-    /// The unit as one of an angle, or of an angle per second.
-    pub fn angle_unit(&self) -> AngleUnit {
+    /// Its size in the SI unit.
+    pub fn size(&self) -> Unit {
         self.size
-    }
-
-    fn is_part_of_turn(&self) -> bool {
-        matches!(self.size, AngleUnit::Turns(_))
     }
 
     /// Whether `text` names this unit. Blanks, `·`, `*` and `^` between the parts of a unit make no difference, and
@@ -181,27 +181,17 @@ impl Given {
 
     /// Whether [`Given::si`] is the number that was given, without a rounding.
     pub fn is_exact_in_si(self) -> bool {
-        let (given, si) = (self.value, self.si());
-        match self.unit.size {
-            _ if given == 0.0 => true,
-            AngleUnit::RADIAN => true,
-            AngleUnit::Radians(ratio) => {
-                let product = |number: f64, factor: f64| DoubleDouble::product(number, factor);
-                product(given, f64::from(ratio.numerator())) == product(si, f64::from(ratio.denominator()))
-            }
-            AngleUnit::Turns(_) => false,
+        let (given, si, size) = (self.value, self.si(), self.unit.size);
+        if given == 0.0 || size == Unit::ONE {
+            return true;
         }
+        let product = |number: f64, factor: f64| DoubleDouble::product(number, factor);
+        !size.is_of_turn() && product(given, f64::from(size.numerator())) == product(si, f64::from(size.denominator()))
     }
 
-    /// The number as an angle, or as an angle per second. Nothing is rounded.
-    pub fn angle(self) -> Angle {
-        self.unit.size.times(self.value)
-    }
-
-    /// The number in the SI unit, of a unit that is not a part of a turn. Nothing is rounded.
+    /// The number in the SI unit. Nothing is rounded.
     pub fn quantity(self) -> Quantity {
-        let (AngleUnit::Radians(ratio) | AngleUnit::Turns(ratio)) = self.unit.size;
-        Quantity::new(self.value, ratio)
+        self.unit.size.times(self.value)
     }
 
     /// The number in its unit.
@@ -219,41 +209,23 @@ impl Given {
 impl fmt::Display for Given {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?}{}", self.value, self.unit.name)?;
-        match self.unit {
-            NamedUnit { name: "", size: AngleUnit::Radians(ratio) } if ratio != Unit::ONE => {
-                write!(f, "@{}/{}", ratio.numerator(), ratio.denominator())
-            }
-            NamedUnit { name: "", size: AngleUnit::Turns(ratio) } => {
-                write!(f, "@{}/{}turn", ratio.numerator(), ratio.denominator())
-            }
-            _ => Ok(()),
+        let NamedUnit { name, size } = self.unit;
+        if !name.is_empty() || size == Unit::ONE {
+            return Ok(());
         }
+        write!(f, "@{}/{}{}", size.numerator(), size.denominator(), if size.is_of_turn() { "turn" } else { "" })
     }
 }
 
 impl Dimension {
-    fn row(self) -> Row {
-        match self {
-            Self::Angle => ANGLE,
-            Self::TurnRate => TURN_RATE,
-            Self::Speed => SPEED,
-            Self::Time => TIME,
-            Self::Acceleration => ACCELERATION,
-            Self::Length => LENGTH,
-            Self::Mass => MASS,
-            Self::Inertia => INERTIA,
-            Self::Number => NUMBER,
-        }
-    }
-
     /// The units that a quantity of this kind may have. The first one is the SI unit.
     pub fn units(self) -> &'static [NamedUnit] {
-        self.row().1
+        ROWS[self as usize].1
     }
 
     /// What is expected, in words that name every unit.
     pub fn expected(self) -> &'static str {
-        self.row().0
+        ROWS[self as usize].0
     }
 
     /// All kinds of quantities.
@@ -275,28 +247,17 @@ impl Dimension {
     }
 
     /// `value` in a unit of this size, by its name if it has one.
-    pub fn in_unit(self, value: f64, size: AngleUnit) -> Given {
+    pub fn in_unit(self, value: f64, size: Unit) -> Given {
         let named = self.units().iter().find(|unit| unit.size == size);
         Given { value, unit: named.copied().unwrap_or(NamedUnit { name: "", size }) }
     }
 
-    /// `quantity` in its unit.
-    pub fn of_quantity(self, quantity: Quantity) -> Given {
-        self.in_unit(quantity.value(), AngleUnit::Radians(quantity.unit()))
-    }
-
     /// Reads a quantity into its SI unit.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] that names `field` and the units that fit.
     pub fn read(self, field: &'static str, text: &str) -> Result<f64, InputError> {
         self.given(field, text).map(Given::si)
     }
 
     /// Reads a quantity in the unit that it is given in, which without one is the SI unit.
-    ///
-    /// # Errors
-    /// As [`Dimension::read`].
     pub fn given(self, field: &'static str, text: &str) -> Result<Given, InputError> {
         let unreadable = || InputError::unreadable(field, text, self.expected());
         self.parsed(text).map(|(given, _)| given).ok_or_else(unreadable)
@@ -312,8 +273,8 @@ impl Dimension {
         let (value, name) =
             text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
         let named = self.units().iter().find(|unit| unit.is_called(name)).map(|unit| unit.times(value));
-        let has_turns = self.units().iter().any(NamedUnit::is_part_of_turn);
-        let sized = || size(name).filter(|size| has_turns || !matches!(size, AngleUnit::Turns(_)));
+        let has_turns = self.units().iter().any(|unit| unit.size.is_of_turn());
+        let sized = || size(name).filter(|size| has_turns || !size.is_of_turn());
         let given = named.or_else(|| sized().map(|size| self.in_unit(value, size)))?;
         Some((given, true))
     }
@@ -327,10 +288,8 @@ pub fn common_unit(given: &[Given]) -> Option<NamedUnit> {
 }
 
 /// Reads several quantities that belong together. Either all of them have a unit or none has, since a unit after the last
-/// number alone could be meant for all. A 0 needs no unit.
-///
-/// # Errors
-/// [`InputError::Malformed`] that names `field`, with `expected` for a text that is not a quantity of its kind.
+/// number alone could be meant for all. A 0 needs no unit. Fails with [`InputError::Malformed`] that names `field`,
+/// with `expected` for a text that is not a quantity of its kind.
 pub fn read_quantities(
     field: &'static str,
     whole: &str,

@@ -128,28 +128,19 @@ pub trait Solver: Send + Sync {
     }
 
     /// The state at landing, `toss.launch.flight_time()` seconds after launch, with the error estimate of its cos θ.
-    ///
-    /// # Errors
-    /// [`SolveError`] where the solver cannot go on; never a partial result. [`SolveError::NotSymmetric`] for a body
-    /// with I1 ≠ I2 where the solver does not solve it; [`SolveError::PhaseTooLarge`] if the body turns by more than
-    /// 2^53 rad.
+    /// Fails with an error where the solver cannot go on; never a partial result. [`SolveError::NotSymmetric`] for a
+    /// body with I1 ≠ I2 where the solver does not solve it; [`SolveError::PhaseTooLarge`] if the body turns by more
+    /// than 2^53 rad.
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError>;
 
     /// cos θ at landing. Override it if cos θ can be computed more cheaply than the attitude.
-    ///
-    /// # Errors
-    /// As [`Solver::land`].
     fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
         self.land(toss).map(|landing| landing.tilt())
     }
 
     /// cos θ at landing of each of many tosses. Override it if many tosses can be solved more cheaply than one by one.
-    ///
-    /// # Errors
-    /// [`Error::Launch`] for the first toss without an answer; the numbers in `out` then mean nothing.
-    ///
-    /// # Panics
-    /// If `out` has another length than `tosses`.
+    /// Fails with [`Error::Launch`] for the first toss without an answer; the numbers in `out` then mean nothing.
+    /// Panics if `out` has another length than `tosses`.
     fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
         tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, out))| {

@@ -58,11 +58,8 @@ impl Stepping {
     /// The step used for RK4 if none is given (s).
     pub const DEFAULT_STEP: f64 = 1e-3;
 
-    /// `scheme` with steps that keep the local error below `tolerance`, absolute and relative.
-    ///
-    /// # Errors
-    /// [`InputError`] if the scheme does not estimate its local error, or the tolerance is below ε = 2^-52 or not below
-    /// 1.
+    /// `scheme` with steps that keep the local error below `tolerance`, absolute and relative. Fails if the scheme does
+    /// not estimate its local error, or the tolerance is below ε = 2^-52 or not below 1.
     pub fn adaptive(scheme: Scheme, tolerance: f64) -> Result<Self, InputError> {
         if !scheme.is_adaptive() {
             return Err(InputError::Malformed {
@@ -77,10 +74,7 @@ impl Stepping {
     }
 
     /// `scheme` with equal steps of at most `step` (s), which every Runge-Kutta scheme can take. The local error is
-    /// then not measured.
-    ///
-    /// # Errors
-    /// [`InputError`] if the scheme chooses its steps itself, or the step is not positive and finite.
+    /// then not measured. Fails if the scheme chooses its steps itself, or the step is not positive and finite.
     pub fn fixed(scheme: Scheme, step: f64) -> Result<Self, InputError> {
         if !scheme.takes_steps() {
             return Err(InputError::Malformed {
@@ -94,10 +88,8 @@ impl Stepping {
     }
 
     /// `scheme` with the step control that it takes by default: [`DEFAULT_TOLERANCE`](Self::DEFAULT_TOLERANCE), or
-    /// [`DEFAULT_STEP`](Self::DEFAULT_STEP) for a scheme without an error estimate.
-    ///
-    /// # Errors
-    /// [`InputError`] for a scheme that takes neither a tolerance nor a step.
+    /// [`DEFAULT_STEP`](Self::DEFAULT_STEP) for a scheme without an error estimate. Fails for a scheme that takes
+    /// neither a tolerance nor a step.
     pub fn of(scheme: Scheme) -> Result<Self, InputError> {
         if scheme.is_adaptive() {
             Self::adaptive(scheme, Self::DEFAULT_TOLERANCE)
@@ -107,9 +99,6 @@ impl Stepping {
     }
 
     /// `scheme` with this control, or with the one of [`Stepping::of`] if there is none.
-    ///
-    /// # Errors
-    /// As [`Stepping::adaptive`] and [`Stepping::fixed`].
     pub fn new(scheme: Scheme, control: Option<StepControl>) -> Result<Self, InputError> {
         match control {
             None => Self::of(scheme),
@@ -161,9 +150,6 @@ impl Stepping {
     /// [tightened](crate::Flight::tightened) tolerance and the root rounded up to a power of two.
     ///
     /// For a body that is not a coin, the estimate is multiplied by the [growth](Phases::growth) of a disturbance. It is `None` from 1 on: it then says nothing about a cosine.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
     pub fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
         let Phases { largest, growth } = Phases::new(toss)?;
         let estimate = |turn_rate| growth * self.estimate(largest, turn_rate, toss.launch.flight_time());
@@ -242,9 +228,6 @@ fn inverse_root(tolerance: f64, order: u32) -> f64 {
 }
 
 /// The number of equal steps of at most `step` that make up `duration`, at least 1.
-///
-/// # Errors
-/// [`SolveError::StepLimit`] if it is more than [`STEP_LIMIT`].
 pub(crate) fn step_count(duration: f64, step: f64) -> Result<f64, SolveError> {
     // A step that divides the duration up to rounding must not become one step more.
     let count = (duration / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);

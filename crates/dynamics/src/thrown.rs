@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use numerics::{Angle, AngleUnit};
+use numerics::{Quantity, Unit};
 
 use crate::attitude::Attitude;
 use crate::body::Body;
@@ -211,9 +211,6 @@ impl Field {
     }
 
     /// The field with this name. A component of the rate may also be called as in a space.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`] with the names of all fields.
     pub fn named(name: &str) -> Result<Self, InputError> {
         match name {
             "rate_x" | "rate-x" => Ok(Self::RateX),
@@ -259,11 +256,8 @@ pub struct Thrown {
 }
 
 impl Thrown {
-    /// Gives `field` by its text.
-    ///
-    /// # Errors
-    /// [`InputError`] that names the field: for a text that it can't be, if it was given before, and for what is outside the
-    /// model.
+    /// Gives `field` by its text. Fails, naming the field, for a text that it can't be, if it was given before, and for
+    /// what is outside the model.
     pub fn set(&mut self, field: Field, text: &str) -> Result<(), InputError> {
         let info = field.info();
         match info.holds {
@@ -287,10 +281,8 @@ impl Thrown {
         }
     }
 
-    /// Gives `field` by its numbers, in the order of its parts.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] that names the field, for another number of them, and if it was given before.
+    /// Gives `field` by its numbers, in the order of its parts. Fails with [`InputError::Malformed`] that names the
+    /// field, for another number of them, and if it was given before.
     pub fn put(&mut self, field: Field, numbers: Vec<Given>) -> Result<(), InputError> {
         let info = field.info();
         if info.holds.kinds(numbers.len()).is_none() {
@@ -303,9 +295,6 @@ impl Thrown {
     }
 
     /// As [`Thrown::put`], by numbers in SI units.
-    ///
-    /// # Errors
-    /// As [`Thrown::put`].
     pub fn put_si(&mut self, field: Field, numbers: &[f64]) -> Result<(), InputError> {
         self.put(field, field.in_si(numbers))
     }
@@ -345,19 +334,14 @@ impl Thrown {
         self
     }
 
-    /// The toss; the body is the paper's coin if none was given.
-    ///
-    /// # Errors
-    /// [`InputError`] for what is missing, contradicts itself or is outside its range.
+    /// The toss; the body is the paper's coin if none was given. Fails for what is missing, contradicts itself or is
+    /// outside its range.
     pub fn toss(&self) -> Result<Toss, InputError> {
         let body = self.body()?.unwrap_or(Coin::PAPER.into());
         Ok(Toss { body, launch: self.launch(&body, self.time_of_flight()?)? })
     }
 
-    /// The field that gives the body, if one does.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] if several do.
+    /// The field that gives the body, if one does. Fails with [`InputError::Malformed`] if several do.
     pub fn body_field(&self) -> Result<Option<Field>, InputError> {
         let mut given = Field::BODY.into_iter().filter(|field| self.has(*field));
         match (given.next(), given.next()) {
@@ -367,9 +351,6 @@ impl Thrown {
     }
 
     /// The body, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn body(&self) -> Result<Option<Body>, InputError> {
         let body = match self.body_field()? {
             None => return Ok(None),
@@ -390,9 +371,6 @@ impl Thrown {
 
     /// The body with these moments, or elements of the tensor if that is how it was given, in any unit: they decide its
     /// motion by their ratios.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn body_of(&self, elements: &[f64]) -> Result<Body, InputError> {
         match <[f64; 6]>::try_from(elements) {
             Ok(elements) if self.has(Field::Inertia) => Body::from_inertia(elements),
@@ -401,9 +379,6 @@ impl Thrown {
     }
 
     /// What the time of flight follows from.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn time_of_flight(&self) -> Result<TimeOfFlight, InputError> {
         let [speed, time, gravity, drop] = Field::FLIGHT.map(|field| self.one(field).map(Given::si));
         match (speed, time) {
@@ -418,16 +393,13 @@ impl Thrown {
 
     /// The launch of `body` with this time of flight. Components of the rate in one unit are not converted, so that proofs
     /// start from them.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn launch(&self, body: &Body, time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
         let launch = match self.components()? {
             Some(_) if self.has(Field::Turn) || self.has(Field::Psi) => {
                 return Err(Field::Rate.twice("either a rate, or turn with psi"));
             }
             Some(given) => match common_unit(&given) {
-                Some(unit) => Launch::in_unit(given.map(Given::value), unit.angle_unit(), time_of_flight)?,
+                Some(unit) => Launch::in_unit(given.map(Given::value), unit.size(), time_of_flight)?,
                 None => Launch::new(given.map(Given::si), time_of_flight)?,
             },
             None => {
@@ -439,9 +411,6 @@ impl Thrown {
     }
 
     /// The components of the rate, if they were given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn components(&self) -> Result<Option<[Given; 3]>, InputError> {
         const AXES: [Field; 3] = [Field::RateX, Field::RateY, Field::RateZ];
         let of_axes = AXES.map(|axis| self.one(axis));
@@ -458,9 +427,6 @@ impl Thrown {
     }
 
     /// The body rate (BF, rad/s) of a precession of `body`, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn precession(&self, body: &Body) -> Result<Option<Vector3<f64>>, InputError> {
         const WHY: &str = "n of a body with I1 ≠ I2 turns unevenly; use the body rate instead";
         match (self.one(Field::Turn), self.one(Field::Psi)) {
@@ -475,14 +441,11 @@ impl Thrown {
     }
 
     /// The attitude at launch, if one was given.
-    ///
-    /// # Errors
-    /// As [`Thrown::toss`].
     pub fn attitude(&self) -> Result<Option<Attitude>, InputError> {
         let given = [Field::Tilt, Field::Attitude, Field::UnitQuaternion].map(|field| self.has(field));
         match given {
             [false, false, false] => Ok(None),
-            [true, false, false] => self.one(Field::Tilt).map(|tilt| tilted(tilt.angle())).transpose(),
+            [true, false, false] => self.one(Field::Tilt).map(|tilt| tilted(tilt.quantity())).transpose(),
             [false, true, false] => Attitude::from_components(self.si(Field::Attitude)).map(Some),
             [false, false, true] => Attitude::from_unit_components(self.si(Field::UnitQuaternion)).map(Some),
             _ => Err(Field::Attitude.twice("either tilt or attitude")),
@@ -511,7 +474,7 @@ impl Thrown {
         match (body.coin(), body.moments()) {
             (Some(coin), _) => match coin.cylinder() {
                 Some(sizes) => {
-                    let size = |(kind, size): (&Dimension, _)| kind.of_quantity(size);
+                    let size = |(kind, size): (&Dimension, Quantity)| kind.in_unit(size.value(), size.unit());
                     self.with(Field::Cylinder, CYLINDER.iter().zip(sizes).map(size).collect())
                 }
                 None => self.with_si(Field::Moments, &[coin.i1(), coin.i3()]),
@@ -543,16 +506,11 @@ impl Thrown {
     pub fn with_attitude(self, attitude: &Attitude) -> Self {
         let given = attitude.given_components();
         match attitude.tilt() {
-            Some(Angle::Radians(size)) => self.with_tilt(size.value(), AngleUnit::Radians(size.unit())),
-            Some(Angle::Turns(size)) => self.with_tilt(size.value(), AngleUnit::Turns(size.unit())),
+            Some(tilt) => self.with(Field::Tilt, vec![Dimension::Angle.in_unit(tilt.value(), tilt.unit())]),
             None if Attitude::from_components(given) == Ok(*attitude) => self.with_si(Field::Attitude, &given),
             // Dividing by a norm that is 1 to rounding can change the last bits.
             None => self.with_si(Field::UnitQuaternion, &attitude.components()),
         }
-    }
-
-    fn with_tilt(self, value: f64, unit: AngleUnit) -> Self {
-        self.with(Field::Tilt, vec![Dimension::Angle.in_unit(value, unit)])
     }
 
     fn with_si(self, field: Field, numbers: &[f64]) -> Self {
@@ -574,14 +532,14 @@ impl Thrown {
 
 /// Numbers separated by commas; each of them has its unit unless all are in SI units.
 fn listed(numbers: &[Given]) -> String {
-    let is_plain = numbers.iter().all(|given| given.unit().angle_unit() == AngleUnit::RADIAN);
+    let is_plain = numbers.iter().all(|given| given.unit().size() == Unit::ONE);
     let number = |given: &Given| if is_plain { format!("{:?}", given.value()) } else { given.to_string() };
     numbers.iter().map(number).collect::<Vec<_>>().join(",")
 }
 
 /// The attitude that is tilted by a finite `angle`.
-fn tilted(angle: Angle) -> Result<Attitude, InputError> {
-    require("tilt [rad]", angle.radians(), "finite", true)?;
+fn tilted(angle: Quantity) -> Result<Attitude, InputError> {
+    require("tilt [rad]", angle.to_f64(), "finite", true)?;
     Ok(Attitude::about_x(angle))
 }
 

@@ -34,9 +34,6 @@ impl Toss {
     }
 
     /// The toss of the coin that the body is, for the solver called `solver`, which solves no other bodies.
-    ///
-    /// # Errors
-    /// [`SolveError::NotSymmetric`] with the reason `why`.
     pub fn of_coin(&self, solver: &str, why: &'static str) -> Result<CoinToss, SolveError> {
         self.coin().ok_or_else(|| SolveError::NotSymmetric { solver: solver.to_owned(), why })
     }

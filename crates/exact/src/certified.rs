@@ -55,9 +55,6 @@ use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
 use crate::tilt_terms::{TiltTerms, cos_tilt_in};
 
 /// Proves the outcome of a toss.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
 #[inline]
 pub(crate) fn certify_coin(toss: &CoinToss) -> Result<Certificate, SolveError> {
     match by_f64(toss) {
@@ -69,9 +66,6 @@ pub(crate) fn certify_coin(toss: &CoinToss) -> Result<Certificate, SolveError> {
 /// cos θ at landing to the error [`COS_TILT_ERROR`](crate::motion::COS_TILT_ERROR), and of the sign of the proven outcome:
 /// it is 0 for a tie alone. Near 0, where that error would take the leading digits, at large phases and for rates that are
 /// not in rad/s, it is rounded from more digits.
-///
-/// # Errors
-/// As [`certify`](crate::certify).
 pub fn cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
     // Above the error of double-double at any phase.
     const NEAR_0: f64 = 1e-9;
@@ -88,9 +82,6 @@ pub fn cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
 /// cos θ is the height of ẑ, turned by Φ = (ωx, ωy, k ωz) T and seen from the attitude at launch, and so changes by no more
 /// than Φ does. Three factors change Φ by up to 3.1 `relative` |Φ|, where |Φ| is the phase; 4 covers the rounding of cos θ and
 /// of the bound, for a `relative` of 4 u or more.
-///
-/// # Errors
-/// As [`certify`](crate::certify).
 pub fn holds_within(toss: &CoinToss, relative: f64) -> Result<bool, SolveError> {
     let phase = CoinMotion::new(toss).phase(toss.launch.time_of_flight())?;
     Ok(cos_tilt(toss)?.abs() > 4.0 * relative * phase)
@@ -158,9 +149,6 @@ fn by_terms(terms: &TiltTerms, phase: f64, rate_error: f64) -> Option<Outcome> {
 }
 
 /// Decides by the stages with more digits than f64.
-///
-/// # Errors
-/// As [`certify`](crate::certify).
 #[cold]
 fn with_more_digits(toss: &CoinToss) -> Result<Certificate, SolveError> {
     CoinMotion::new(toss).phase(toss.launch.time_of_flight())?;

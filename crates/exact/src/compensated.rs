@@ -62,9 +62,6 @@ pub(crate) fn root(square: f64, rest: f64) -> [f64; 2] {
 
 /// The phase (rad) that a rate and its rounding error, both in the `unit` (rad/s), reach in the time of flight of
 /// `toss`.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub(crate) fn turned([rate, rest]: [f64; 2], toss: &CoinToss, unit: f64) -> Result<DoubleDouble, SolveError> {
     // A rate of 0 gives phase 0 at any time, also where the product would be 0 · ∞.
@@ -78,9 +75,6 @@ pub(crate) fn turned([rate, rest]: [f64; 2], toss: &CoinToss, unit: f64) -> Resu
 }
 
 /// cos θ at landing.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub fn compensated_cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
     if toss.launch.rate_error() != 0.0 {
@@ -98,9 +92,6 @@ pub fn compensated_cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
 }
 
 /// State at landing. The attitude is `Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ)`.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub fn compensated_landing(toss: &CoinToss) -> Result<State, SolveError> {
     if toss.launch.rate_error() != 0.0 {
@@ -161,16 +152,6 @@ mod tests {
                 let error = compensated_cos_tilt(&toss).unwrap() - motion.cos_tilt(time).unwrap();
                 assert!(error.abs() < 2.5 * f64::EPSILON, "{rate:?} {time:?} {k} {tilt}: {error:e}");
             }
-        }
-    }
-
-    #[test]
-    fn a_phase_above_two_to_the_53_is_refused() {
-        for rate in [Vector3::new(0.0, 0.0, 1e300), Vector3::new(1e20, 0.0, 0.0)] {
-            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
-            let toss = CoinToss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch };
-            assert!(matches!(compensated_landing(&toss), Err(SolveError::PhaseTooLarge { .. })));
-            assert!(matches!(compensated_cos_tilt(&toss), Err(SolveError::PhaseTooLarge { .. })));
         }
     }
 

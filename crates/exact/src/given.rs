@@ -2,7 +2,7 @@
 //! they hold for the toss before any rounding.
 
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{Angle, AngleUnit, Attitude, Coin, Launch, Vector3};
+use dynamics::{Attitude, Coin, Launch, Quantity, Unit, Vector3};
 use numerics::big::exactly;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
@@ -27,7 +27,7 @@ pub(crate) fn scaled<N: Elementary>(rate: &Vector3<f64>, like: &N) -> [N; 3] {
 /// differ too much.
 pub(crate) fn in_double_double(launch: &Launch) -> Option<(Ball<DoubleDouble>, [Ball<DoubleDouble>; 3])> {
     let (rate, unit) = launch.given_rate();
-    if !components_are_close(&rate) || unit != AngleUnit::RADIAN {
+    if !components_are_close(&rate) || unit != Unit::ONE {
         return None;
     }
     let time = ExactTime::from(launch.time_of_flight());
@@ -94,7 +94,7 @@ impl Vertical {
     pub(crate) fn in_double_double(self, attitude: &Attitude) -> [Ball<DoubleDouble>; 3] {
         // Up to here an angle has digits enough.
         const LARGEST_TILT: f64 = 1e6;
-        if let Some(tilt) = attitude.tilt().map(Angle::double_double)
+        if let Some(tilt) = attitude.tilt().map(Quantity::double_double)
             && tilt.hi().abs() < LARGEST_TILT
         {
             // The angle is right to 16 u².

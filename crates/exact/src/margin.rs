@@ -65,9 +65,6 @@ type Found = (Option<f64>, f64);
 /// Two flips nearer to each other than 5e-13 of their distance may count as none, but for those of a coin in time. All
 /// inputs of another body take some hundred milliseconds, and each search at most about half a second: a range says where
 /// it ended.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     let (outcome, range) = (certify(toss)?.outcome(), rate_range(&toss.launch));
     if outcome == Outcome::Undecided {
@@ -103,9 +100,6 @@ impl Margin {
 }
 
 /// Of the time of flight, the speed and gravity, and the range of times that was searched.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 fn of_flight(toss: &Toss, outcome: Outcome) -> Result<InFlight, SolveError> {
     let flight = toss.launch.time_of_flight();
     let turn_rate = toss.launch.turn_rate();

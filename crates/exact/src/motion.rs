@@ -96,17 +96,11 @@ impl CoinMotion {
     }
 
     /// The larger of the phases ωL t and |q| t (rad), which is how far the motion turns in `time` (s).
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
     pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
         self.phases(time).map(|(precession, spin)| precession.hi().max(spin.hi().abs()))
     }
 
     /// The phases of precession and spin, ωL t and q t (rad), `time` (s) after launch.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if either is above 2^53.
     pub fn phases(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
         let time = time.into();
         let turned = |rate: DoubleDouble| (rate * time.mantissa()).times_power_of_two(self.exponent + time.exponent());
@@ -116,17 +110,11 @@ impl CoinMotion {
     }
 
     /// cos θ, `time` (s) after launch. It costs one sine and one cosine.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
     pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
         self.cos_tilt_parts(time).map(|(cos_tilt, _)| cos_tilt.hi().clamp(-1.0, 1.0))
     }
 
     /// cos θ before it is rounded, and the phase ωL t (rad), in double-double.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
     pub fn cos_tilt_parts(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
         let phase = self.phases(time)?.0;
         let (sin, cos) = phase.sin_cos();
@@ -135,9 +123,6 @@ impl CoinMotion {
     }
 
     /// Attitude and body rate, `time` (s) after launch.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
     pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
         let (phase, spin) = self.phases(time)?;
         let precession = Attitude::about_unit_axis(&self.momentum_direction, (phase * 0.5).rounded_sin_cos());
@@ -153,9 +138,6 @@ impl CoinMotion {
     ///
     /// If a motion passes sin β = 0 exactly, as after every horizontal launch, α and γ stay continuous and β goes on to
     /// negative values. At a horizontal launch α(0) = -γ(0) = atan2(ωy, ωx), the limit for t → 0.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
     pub fn euler_angles(&self, time: impl Into<ExactTime>) -> Result<EulerAngles, SolveError> {
         let (phase, spin) = self.phases(time)?;
         let half_phase = phase * 0.5;

@@ -23,7 +23,7 @@
 
 use std::iter::successors;
 
-use dynamics::{AngleUnit, CoinToss, Outcome};
+use dynamics::{CoinToss, Outcome};
 use numerics::big::{Big, exactly};
 use numerics::{Elementary, WideBall};
 
@@ -59,7 +59,7 @@ fn decided_cos_tilt(toss: &CoinToss, has_enough: impl Fn(&WideBall) -> bool) -> 
     if is_tie(toss) {
         return None;
     }
-    let may_be_0 = matches!(toss.launch.given_rate().1, AngleUnit::Turns(_));
+    let may_be_0 = toss.launch.given_rate().1.is_of_turn();
     successors(Some(FEWEST_DIGITS), |digits| Some(2 * digits))
         .take_while(|digits| !may_be_0 || *digits <= MOST_DIGITS_OF_TURNS)
         .map(|digits| cos_tilt(toss, digits))
@@ -91,7 +91,7 @@ pub(crate) fn cos_tilt(toss: &CoinToss, digits: usize) -> WideBall {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Angle, Attitude, Coin, Launch, Quantity, TimeOfFlight, Unit};
+    use dynamics::{Attitude, Coin, Launch, TimeOfFlight, Unit};
     use nalgebra::Vector3;
 
     use super::*;
@@ -124,7 +124,7 @@ mod tests {
     }
 
     fn degrees(value: f64) -> Attitude {
-        Attitude::about_x(Angle::Turns(Quantity::new(value, Unit::ratio(1, 360).unwrap())))
+        Attitude::about_x(Unit::DEGREE.times(value))
     }
 
     #[test]
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn rates_in_turns_tie_at_quarters_of_a_turn_and_nowhere_near_them() {
-        let turns = AngleUnit::Turns(Unit::ONE);
+        let turns = Unit::TURN;
         for (rate, time, outcome) in [
             (1.0, 0.25, Outcome::Undecided),
             (1.0, 0.25f64.next_up(), Outcome::Tails),

@@ -64,9 +64,6 @@ impl ExactMotion {
 
     /// How far the body turns in `time` (s) after launch (rad): a coin about its angular momentum, another body as far as |ω| at
     /// launch takes it.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
     pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
         match &self.coin {
             Some(motion) => motion.phase(time),
@@ -74,9 +71,7 @@ impl ExactMotion {
         }
     }
 
-    /// cos θ, `time` (s) after launch, with θ the angle between n and the vertical.
-    ///
-    /// # Errors
+    /// cos θ, `time` (s) after launch, with θ the angle between n and the vertical. Fails with
     /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] if the last number of digits is too few.
     pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
         if let Some(motion) = &self.coin {
@@ -87,9 +82,6 @@ impl ExactMotion {
     }
 
     /// Attitude and body rate, `time` (s) after launch.
-    ///
-    /// # Errors
-    /// As [`ExactMotion::cos_tilt`].
     pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
         match &self.coin {
             Some(motion) => motion.state(time),
@@ -100,9 +92,6 @@ impl ExactMotion {
 
 /// Attitude and body rate of a body that is not a coin, `time` after launch, from the `first` stage on that has both within so
 /// much.
-///
-/// # Errors
-/// As [`ExactMotion::state`].
 pub(crate) fn state(toss: &Toss, time: ExactTime, first: Stage, within: f64) -> Result<State, SolveError> {
     turn_and_rate(toss, time, first, within).map(|turned| turned_state(toss, turned))
 }
@@ -115,9 +104,6 @@ fn turned_state(toss: &Toss, (turn, rate): TurnedTo) -> State {
 }
 
 /// The angle (rad) that |ω| at launch makes of `time`.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`] if it is above 2^53.
 pub(crate) fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, SolveError> {
     let rate = toss.launch.rate();
     let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
@@ -126,10 +112,8 @@ pub(crate) fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, Solv
 }
 
 /// The turn of a body that is not a coin, a unit quaternion, and its rate (BF, rad/s) after `time`, within so much
-/// of what they are: the rate in parts of the rate at launch.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] if the last number of digits is too few.
+/// of what they are: the rate in parts of the rate at launch. Fails with [`SolveError::PhaseTooLarge`];
+/// [`SolveError::NotFinite`] if the last number of digits is too few.
 fn turn_and_rate(toss: &Toss, time: ExactTime, first: Stage, within: f64) -> Result<TurnedTo, SolveError> {
     turned_at_launch(toss, time)?;
     let found = climb(toss, Some(time), first, &TurnAndRate { within });

@@ -41,9 +41,6 @@ impl serde::Serialize for Sensitivity {
 
 impl Sensitivity {
     /// The derivatives at the landing of the toss of a coin.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
     pub(crate) fn of_coin(toss: &CoinToss) -> Result<Self, SolveError> {
         let (k, rate, time) = (toss.coin.inertia_ratio(), toss.launch.rate(), toss.launch.flight_time());
         let motion = CoinMotion::new(toss);

@@ -9,11 +9,9 @@ use crate::rigid::line::{Input, Line};
 use crate::rigid::turned_at_launch;
 
 /// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if its time of flight
-/// was given without a speed; none if `slowest` is not slower. Two flips nearer to each other than 1e-12 of the time of flight may count as none.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`]; [`SolveError::StepLimit`] if the motion stays so near to cos θ = 0, or so near to the
-/// separatrix, that the search ended before the last speed.
+/// was given without a speed; none if `slowest` is not slower. Two flips nearer to each other than 1e-12 of the time of
+/// flight may count as none. Fails with [`SolveError::PhaseTooLarge`]; [`SolveError::StepLimit`] if the motion stays so
+/// near to cos θ = 0, or so near to the separatrix, that the search ended before the last speed.
 pub fn speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
     let (speed, gravity, drop) = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, 0.0),
@@ -57,9 +55,6 @@ pub fn speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f64; 2]>
 
 /// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if it was not thrown
 /// and caught at the same height. A motion of many turns has as many intervals.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 pub fn level_speeds_of_heads(
     toss: &CoinToss,
     slowest: f64,
@@ -82,9 +77,6 @@ pub fn level_speeds_of_heads(
 ///
 /// A landing at h below the launch has the time T = (v0 + √(v0² + 2 g h))/g, which a throw at u = g T/2 has without the
 /// drop; back from it, v0 = u - g h/(2 u).
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
 pub(crate) fn thrown_speeds_of_heads(toss: &CoinToss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
     let TimeOfFlight::BallisticTo { speed, gravity, drop } = toss.launch.time_of_flight() else {
         return Ok(level_speeds_of_heads(toss, slowest)?.map(Iterator::collect));

@@ -175,7 +175,6 @@ fn small_phase<N: Elementary>(squared: &N) -> Option<[N; 2]> {
         count += 1.0;
         left += (2.0 * count * (2.0 * count + 1.0)).log2() - of_square;
     }
-    #[expect(clippy::cast_possible_truncation, reason = "at most some thousand")]
     let rest = squared.like(0.0).widened(1.0).times_power_of_two(-left.floor().min(1e6) as i32);
     let sum = |first: f64| {
         let mut sum = squared.like(1.0);

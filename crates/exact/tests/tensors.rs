@@ -1,7 +1,7 @@
 //! Bodies that are given by a tensor, above all with moments that are equal or nearly so, on the separatrix and spinning
 //! about an axis.
 
-use dynamics::{AngleUnit, Attitude, Body, Launch, Outcome, Solver, TimeOfFlight, Toss, Unit};
+use dynamics::{Attitude, Body, Launch, Outcome, Solver, TimeOfFlight, Toss, Unit};
 use exact::{Certificate, ExactMotion, ExactSolver, Sensitivity, certify, margin};
 
 fn toss(inertia: [f64; 6], rate: [f64; 3], tilt: f64, time: f64) -> Toss {
@@ -168,11 +168,11 @@ fn long_flights_and_extreme_rates_are_decided() {
 /// By exact arithmetic, where there is no motion.
 #[test]
 fn a_body_at_rest_is_decided_and_a_tie_is_proven() {
-    let at = |tilt: dynamics::Angle, rate: [f64; 3], time: f64| -> Certificate {
+    let at = |tilt: dynamics::Quantity, rate: [f64; 3], time: f64| -> Certificate {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
         certify(&Toss { body: Body::from_inertia(INTEGRATED[0].0).unwrap(), launch }).unwrap()
     };
-    let quarter = AngleUnit::Turns(Unit::ONE).times(0.25);
+    let quarter = Unit::TURN.times(0.25);
     for (rate, time) in [([0.0; 3], 1.0), ([1.0, 2.0, 3.0], 0.0)] {
         let tie = at(quarter, rate, time);
         assert!(tie.is_proven() && tie.outcome() == Outcome::Undecided);
@@ -192,7 +192,7 @@ fn a_flight_beyond_the_digits_is_an_error_and_no_small_cos_tilt() {
 /// A rate in degrees is not one of f64 in radians.
 #[test]
 fn rates_in_degrees_are_decided_as_they_were_given() {
-    let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+    let degree = Unit::DEGREE;
     for (inertia, ..) in INTEGRATED {
         let body = Body::from_inertia(inertia).unwrap();
         let launch = Launch::in_unit([300.0, 200.0, 100.0], degree, TimeOfFlight::Given(2.0)).unwrap();

@@ -21,7 +21,34 @@ use dynamics::{
 
 /// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π), which changes its attitude by
 /// at most 2 ε = 4.4e-16 rad.
-pub(crate) const VERTICAL: f64 = f64::EPSILON;
+const VERTICAL: f64 = f64::EPSILON;
+
+/// How n is along the vertical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Pole {
+    /// β = 0.
+    Upright,
+    /// β = π.
+    Inverted,
+}
+
+impl Pole {
+    /// That of a launch within [`VERTICAL`] of one.
+    pub(crate) fn of(launched: &Attitude) -> Option<Self> {
+        let [w, x, y, z] = launched.components();
+        let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
+        let pole = if cos_half_beta > sin_half_beta { Self::Upright } else { Self::Inverted };
+        (sin_half_beta.min(cos_half_beta) <= VERTICAL).then_some(pole)
+    }
+
+    /// The angles of the same attitude as the `principal` ones, with this γ.
+    pub(crate) fn angles(self, principal: &EulerAngles, gamma: f64) -> EulerAngles {
+        match self {
+            Self::Upright => EulerAngles { alpha: principal.alpha + principal.gamma - gamma, beta: 0.0, gamma },
+            Self::Inverted => EulerAngles { alpha: principal.alpha - principal.gamma + gamma, beta: PI, gamma },
+        }
+    }
+}
 
 /// The frame of the angles, and their values and rates at launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,18 +108,10 @@ impl InitialConditions {
 
     fn vertical(launch: Attitude, rate: &Vector3<f64>, momentum_z: f64) -> Self {
         let angles = EulerAngles::principal(&launch);
-        let [w, x, y, z] = launch.components();
-        let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
-        if sin_half_beta.min(cos_half_beta) > VERTICAL {
-            return Self::from_kinematics(angles, rate);
-        }
+        let Some(pole) = Pole::of(&launch) else { return Self::from_kinematics(angles, rate) };
         let u = 0.5 * momentum_z;
-        let gamma = (-rate.y).atan2(rate.x);
-        let (angles, precession) = if cos_half_beta > sin_half_beta {
-            (EulerAngles { alpha: angles.alpha + angles.gamma - gamma, beta: 0.0, gamma }, u)
-        } else {
-            (EulerAngles { alpha: angles.alpha - angles.gamma + gamma, beta: PI, gamma }, -u)
-        };
+        let angles = pole.angles(&angles, (-rate.y).atan2(rate.x));
+        let precession = if pole == Pole::Upright { u } else { -u };
         Self { frame: Attitude::IDENTITY, angles, precession, u }
     }
 

@@ -23,7 +23,7 @@
 //! disturbances of a plate oscillate up to twice as fast as it turns. No step therefore turns the body by more than 2 rad,
 //! see "Runge-Kutta integration" in `DESIGN.md`.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use dynamics::body::principal_acceleration;
 use dynamics::integrate::OdeSystem;
@@ -32,7 +32,8 @@ use dynamics::{
 };
 use nalgebra::SVector;
 
-use crate::initial::VERTICAL;
+use crate::angles::Kinematics;
+use crate::initial::Pole;
 use crate::passes::Passes;
 
 /// The largest change of the rate across n, by that rate, in the unit of a [`Flight`](dynamics::Flight), with which a
@@ -41,9 +42,6 @@ use crate::passes::Passes;
 const FASTEST_START: f64 = 1e6;
 
 /// The flight of `toss` in the frame of `formulation`.
-///
-/// # Errors
-/// As [`Solver::land`](dynamics::Solver::land).
 pub(crate) fn land(
     toss: &Toss,
     stepping: &Stepping,
@@ -70,7 +68,7 @@ pub(crate) fn land(
         }
     };
     let state = State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) };
-    Ok((Landing::new(state, work), start.system.passes))
+    Ok((Landing::new(state, work), start.system.kinematics.passes))
 }
 
 /// The angles at launch, and their equations.
@@ -99,21 +97,15 @@ impl Start {
         Self { angles, system: RigidAngles::new(axes, couplings, 0.5 * third_of(&axes, flight)) }
     }
 
-    /// Angles of n from the vertical.
-    ///
-    /// # Errors
-    /// [`SolveError::Singular`] if n is along the vertical, and so is ω for a moment.
+    /// Angles of n from the vertical. Fails with [`SolveError::Singular`] if n is along the vertical, and so is ω for a
+    /// moment.
     fn vertical(toss: &Toss, flight: &Flight) -> Result<Self, SolveError> {
         let (launched, couplings) = (toss.launch.attitude(), toss.body.rigid().couplings());
         let angles = EulerAngles::principal(&launched);
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| flight.in_body(axis));
         let axes = [0, 1, 2].map(|row: usize| columns.map(|column| column[row]));
         let system = |limit_of_u| RigidAngles::new(axes, couplings, limit_of_u);
-        let [w, x, y, z] = launched.components();
-        let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
-        if sin_half_beta.min(cos_half_beta) > VERTICAL {
-            return Ok(Self { angles, system: system(0.0) });
-        }
+        let Some(pole) = Pole::of(&launched) else { return Ok(Self { angles, system: system(0.0) }) };
         let rate = flight.in_units(&toss.launch.rate());
         let change = flight.in_body(principal_acceleration(couplings, flight.rate.into()));
         let (across, change_across) = (rate.x.hypot(rate.y), change.x.hypot(change.y));
@@ -121,12 +113,7 @@ impl Start {
             return Err(SolveError::Singular { point: Singularity::NormalAlongAxis, time: 0.0 });
         }
         let (gamma, limit_of_u) = regular_start(&rate, &change, across);
-        let (alpha, beta) = if cos_half_beta > sin_half_beta {
-            (angles.alpha + angles.gamma - gamma, 0.0)
-        } else {
-            (angles.alpha - angles.gamma + gamma, PI)
-        };
-        Ok(Self { angles: EulerAngles { alpha, beta, gamma }, system: system(limit_of_u) })
+        Ok(Self { angles: pole.angles(&angles, gamma), system: system(limit_of_u) })
     }
 }
 
@@ -151,14 +138,12 @@ struct RigidAngles {
     axes: [[f64; 3]; 3],
     /// The couplings of Euler's equations.
     couplings: [f64; 3],
-    /// The limit of u = α' cos β at sin β = 0.
-    limit_of_u: f64,
-    passes: Passes,
+    kinematics: Kinematics,
 }
 
 impl RigidAngles {
     fn new(axes: [[f64; 3]; 3], couplings: [f64; 3], limit_of_u: f64) -> Self {
-        Self { axes, couplings, limit_of_u, passes: Passes::none() }
+        Self { axes, couplings, kinematics: Kinematics::new(limit_of_u) }
     }
 
     /// The components along the principal axes of a vector along the axes of the angles.
@@ -172,24 +157,14 @@ impl OdeSystem<6> for RigidAngles {
 
     fn derivative(&self, state: &SVector<f64, 6>) -> SVector<f64, 6> {
         let &[_, beta, gamma, first, second, third] = &state.data.0[0];
-        let [x, y, z] = self.axes.map(|[a, b, c]| a * first + b * second + c * third);
-        let ((sin_beta, cos_beta), (sin_gamma, cos_gamma)) = (beta.sin_cos(), gamma.sin_cos());
-        let precession = if beta == 0.0 || beta.abs() == PI {
-            // α' = u/cos β, and cos β = ±1 is its own inverse.
-            cos_beta * self.limit_of_u
-        } else {
-            (x * sin_gamma + y * cos_gamma) / sin_beta
-        };
+        let rates = self.axes.map(|[a, b, c]| a * first + b * second + c * third);
+        let [alpha_dot, beta_dot, gamma_dot] = self.kinematics.rates(beta, gamma, rates);
         let [first, second, third] = principal_acceleration(self.couplings, [first, second, third]);
-        let nutation = x * cos_gamma - y * sin_gamma;
-        SVector::from([precession, nutation, z - precession * cos_beta, first, second, third])
+        SVector::from([alpha_dot, beta_dot, gamma_dot, first, second, third])
     }
 
     fn singularity(&self, before: &SVector<f64, 6>, after: &SVector<f64, 6>) -> Option<Singularity> {
-        self.passes.turned(after[0] - before[0]);
-        let [was, is] = [before, after].map(|state| state[1].sin());
-        let started_there = was.abs() < f64::EPSILON;
-        (!started_there && was * is <= 0.0).then_some(Singularity::NormalAlongAxis)
+        self.kinematics.singularity(before, after)
     }
 }
 

@@ -23,4 +23,4 @@ mod taylor;
 pub use crate::prove::certificate::IntegratedCertificate;
 pub use crate::prove::counts::{IntegratedCounts, Proving};
 pub use crate::solver::{QuaternionSolver, TAYLOR};
-pub use crate::system::{QuaternionSystem, RigidSystem};
+pub use crate::system::QuaternionSystem;

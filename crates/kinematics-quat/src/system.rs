@@ -34,14 +34,14 @@ impl OdeSystem<6> for QuaternionSystem {
 /// The system over the state (w, x, y, z, ω1, ω2, ω3) in principal axes. Rates may be in any unit; its inverse is the
 /// unit of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigidSystem {
+pub(crate) struct RigidSystem {
     /// The [couplings](dynamics::RigidBody::couplings) of Euler's equations.
     couplings: [f64; 3],
 }
 
 impl RigidSystem {
     /// The system for a body with these [couplings](dynamics::RigidBody::couplings).
-    pub fn new(couplings: [f64; 3]) -> Self {
+    pub(crate) fn new(couplings: [f64; 3]) -> Self {
         Self { couplings }
     }
 }

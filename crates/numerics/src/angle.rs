@@ -1,4 +1,4 @@
-//! Angles as they were given, in radians or in turns, with sine and cosine to 2^-68 and beyond.
+//! Sine and cosine of angles as they were given, to 2^-68 and beyond.
 //!
 //! std's sine and cosine are right to some 2^-53. A proof that starts from an angle needs more of it: the vertical seen
 //! from a tilted coin is made of the sine and cosine of the tilt.
@@ -7,58 +7,6 @@ use crate::big::{Big, exactly};
 use crate::double_double::DoubleDouble;
 use crate::quantity::{Quantity, Unit};
 use crate::scale::mantissa_and_exponent;
-
-/// An angle: so many radians, or so many turns of 2π.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Angle {
-    /// In radians.
-    Radians(Quantity),
-    /// In turns: a degree is a turn by 360.
-    Turns(Quantity),
-}
-
-/// What an angle is counted in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AngleUnit {
-    /// A rational number of radians.
-    Radians(Unit),
-    /// A rational part of a turn.
-    Turns(Unit),
-}
-
-impl AngleUnit {
-    /// The radian.
-    pub const RADIAN: Self = Self::Radians(Unit::ONE);
-
-    /// So many of this unit.
-    #[inline]
-    pub fn times(self, value: f64) -> Angle {
-        match self {
-            Self::Radians(unit) => Angle::Radians(Quantity::new(value, unit)),
-            Self::Turns(unit) => Angle::Turns(Quantity::new(value, unit)),
-        }
-    }
-
-    /// The unit (rad), rounded to so many binary digits.
-    pub fn in_digits(self, digits: usize) -> Big {
-        let ratio = |unit: Unit| Quantity::new(1.0, unit).in_digits(digits);
-        match self {
-            Self::Radians(unit) => ratio(unit),
-            Self::Turns(unit) => ratio(unit) * Big::pi(digits) * exactly(2.0),
-        }
-    }
-}
-
-/// In radians.
-impl From<f64> for Angle {
-    #[inline]
-    fn from(radians: f64) -> Self {
-        Self::Radians(radians.into())
-    }
-}
-
-/// 2π.
-const TURN: [f64; 2] = [std::f64::consts::TAU, 2.449_293_598_294_706_4e-16];
 
 /// π/2 in three parts, to 2^-163.
 pub(crate) const QUARTER: [f64; 3] =
@@ -86,35 +34,8 @@ const SIXTEENTHS: [[[f64; 2]; 2]; 14] = [
     [[0.726_008_655_260_712_6, -1.573_621_815_339_587e-17], [0.687_685_562_220_504_8, 3.543_069_675_282_392_3e-17]],
 ];
 
-impl Angle {
-    /// The nearest f64 (rad), or infinite.
-    #[inline]
-    pub fn radians(self) -> f64 {
-        self.double_double().hi()
-    }
-
-    /// Whether it is exactly 0.
-    #[inline]
-    pub fn is_zero(self) -> bool {
-        let (Self::Radians(size) | Self::Turns(size)) = self;
-        size.value() == 0.0
-    }
-
-    /// The angle (rad) to 16 u²; above 1e290 turns it is rounded to f64. It may be infinite, or lose digits below the
-    /// range of f64.
-    #[inline]
-    pub fn double_double(self) -> DoubleDouble {
-        match self {
-            Self::Radians(radians) => radians.double_double(),
-            Self::Turns(turns) => {
-                let turns = turns.double_double();
-                // Splitting a number of this size for an exact product would overflow.
-                let huge = turns.hi().abs() > 1e290;
-                if huge { (turns.hi() * TURN[0]).into() } else { turns * double_double(TURN) }
-            }
-        }
-    }
-
+/// Of an angle.
+impl Quantity {
     /// Sine and cosine to 2^-68, whatever the angle.
     #[inline]
     pub fn sin_cos(self) -> [DoubleDouble; 2] {
@@ -126,24 +47,17 @@ impl Angle {
     }
 
     /// Sine and cosine to so many binary digits after the point, at least 80. They are 0 only where they are exactly 0.
-    ///
-    /// # Panics
-    /// For an angle that is not finite.
+    /// Panics for an angle that is not finite.
     pub fn sin_cos_in_digits(self, digits: usize) -> [Big; 2] {
-        let digits = digits.max(80);
-        let (sin, cos) = match self {
-            Self::Radians(radians) => {
-                // Of a quotient, the digits before the point are needed besides.
-                let (_, exponent) = mantissa_and_exponent(radians.value());
-                let whole_digits = usize::try_from(exponent).unwrap_or(0) + 64;
-                let exact = radians.unit() == Unit::ONE;
-                radians.in_digits(if exact { digits } else { digits + whole_digits }).sin_cos()
-            }
-            Self::Turns(turns) => {
-                let Unit { numerator, denominator } = turns.unit();
-                let product = exactly(turns.value()) * exactly(numerator.into());
-                product.with_precision(digits).value().sin_cos_unit(denominator as usize)
-            }
+        let (digits, unit) = (digits.max(80), self.unit());
+        let (sin, cos) = if unit.is_of_turn() {
+            let product = exactly(self.value()) * exactly(unit.numerator().into());
+            product.with_precision(digits).value().sin_cos_unit(unit.denominator() as usize)
+        } else {
+            // Of a quotient, the digits before the point are needed besides.
+            let (_, exponent) = mantissa_and_exponent(self.value());
+            let whole_digits = usize::try_from(exponent).unwrap_or(0) + 64;
+            self.in_digits(if unit == Unit::ONE { digits } else { digits + whole_digits }).sin_cos()
         };
         [sin, cos].map(|part| part.with_precision(digits).value())
     }
@@ -185,7 +99,6 @@ pub(crate) fn sin_cos_of_parts(
 ) -> [DoubleDouble; 2] {
     let sixteenths = (16.0 * rest.hi()).round_ties_even();
     let [sin_d, cos_d_less_1] = small(rest - (0.0625 * sixteenths).into());
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 13")]
     let [sin_a, cos_a] = SIXTEENTHS[sixteenths.abs().min(13.0) as usize].map(double_double);
     let sin_a = if sixteenths < 0.0 { -sin_a } else { sin_a };
     let sin = sin_a + (sin_a * cos_d_less_1 + cos_a * sin_d);
@@ -202,13 +115,13 @@ pub(crate) fn sin_cos_of_parts(
 mod tests {
     use super::*;
 
-    fn degrees(value: f64) -> Angle {
-        Angle::Turns(Quantity::new(value, Unit::ratio(1, 360).unwrap()))
+    fn degrees(value: f64) -> Quantity {
+        Unit::DEGREE.times(value)
     }
 
     /// Against sine and cosine in 300 bits, of the angle as it was given.
     #[track_caller]
-    fn assert_right(angle: Angle) {
+    fn assert_right(angle: Quantity) {
         let exact = angle.sin_cos_in_digits(300);
         for (found, exact) in angle.sin_cos().into_iter().zip(exact) {
             let error = (exactly(found.hi()) + exactly(found.lo()) - exact).to_f64().value().abs();
@@ -234,7 +147,7 @@ mod tests {
         for angle in [0.0, 5e-324, LARGEST, LARGEST.next_up(), 1e22, 1e300, f64::MAX, -1e17] {
             assert_right(angle.into());
             assert_right(degrees(angle));
-            assert_right(Angle::Radians(Quantity::new(angle, Unit::ratio(7, 1000).unwrap())));
+            assert_right(Unit::ratio(7, 1000).unwrap().times(angle));
         }
     }
 
@@ -242,7 +155,7 @@ mod tests {
     #[test]
     fn sines_of_a_quotient_have_the_digits_that_were_asked_for() {
         for (value, digits) in [0.9, -1e-3, 5e4, 1e300].into_iter().flat_map(|value| [(value, 80_u16), (value, 200)]) {
-            let angle = Angle::Radians(Quantity::new(value, Unit::ratio(60_000, 7).unwrap()));
+            let angle = Unit::ratio(60_000, 7).unwrap().times(value);
             let exact = angle.sin_cos_in_digits(1500);
             for (found, exact) in angle.sin_cos_in_digits(digits.into()).into_iter().zip(exact) {
                 let error = (found.with_precision(1600).value() - exact).to_f64().value().abs();
@@ -251,19 +164,11 @@ mod tests {
         }
     }
 
-    #[test]
-    fn small_angles_are_their_sine_to_the_last_digit() {
-        for angle in [1e-300, -1e-20, 3e-9] {
-            let [sin, cos] = Angle::from(angle).sin_cos();
-            assert_eq!((sin.hi(), cos.hi()), (angle.sin(), 1.0));
-        }
-    }
-
     /// There the series of cos d counts alone, to its last term, which is 2^-71.8 at an angle of 1/32.
     #[test]
     fn cosines_of_small_angles_are_right_to_74_digits() {
         for index in -64..=64 {
-            let angle = Angle::from(f64::from(index) / 2048.0);
+            let angle = Quantity::from(f64::from(index) / 2048.0);
             let ([_, cos], [_, exact]) = (angle.sin_cos(), angle.sin_cos_in_digits(300));
             let error = (exactly(cos.hi()) + exactly(cos.lo()) - exact).to_f64().value().abs();
             assert!(error <= 2f64.powi(-74), "{angle:?} is off by 2^{}", error.log2());
@@ -279,24 +184,16 @@ mod tests {
         for angle in [degrees(90f64.next_up()), QUARTER[0].into(), 1e300.into(), 5e-324.into()] {
             assert!(angle.sin_cos_in_digits(80).iter().all(|part| *part != zero), "{angle:?}");
         }
-        assert!(degrees(0.0).is_zero() && !Angle::from(5e-324).is_zero());
-    }
-
-    #[test]
-    fn units_are_those_of_their_angles() {
-        for unit in [AngleUnit::Turns(Unit::ratio(1, 60).unwrap()), AngleUnit::Radians(Unit::ratio(3, 1000).unwrap())] {
-            assert_eq!(unit.in_digits(200).to_f64().value(), unit.times(1.0).radians(), "{unit:?}");
-        }
-        assert_eq!(AngleUnit::RADIAN.times(0.3), 0.3.into());
+        assert!(degrees(0.0).sin_cos_in_digits(80)[0] == zero);
     }
 
     #[test]
     fn radians_are_the_nearest_f64() {
-        assert_eq!(degrees(180.0).radians(), std::f64::consts::PI);
-        assert_eq!(Angle::from(0.1).radians(), 0.1);
-        assert_eq!(Angle::Turns(1e300.into()).radians(), 1e300 * std::f64::consts::TAU);
+        assert_eq!(degrees(180.0).to_f64(), std::f64::consts::PI);
+        assert_eq!(Quantity::from(0.1).to_f64(), 0.1);
+        assert_eq!(Unit::TURN.times(1e300).to_f64(), 1e300 * std::f64::consts::TAU);
         // Up to this size the second part is kept.
-        assert_ne!(Angle::Turns(1e290.into()).double_double().lo(), 0.0);
-        assert_eq!(Angle::Turns(f64::MAX.into()).radians(), f64::INFINITY);
+        assert_ne!(Unit::TURN.times(1e290).double_double().lo(), 0.0);
+        assert_eq!(Unit::TURN.times(f64::MAX).to_f64(), f64::INFINITY);
     }
 }

@@ -24,8 +24,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::big::Big;
-use crate::double_double::DoubleDouble;
-use crate::elementary::Elementary;
+use crate::elementary::{Elementary, answered_by};
 use crate::number::Number;
 
 /// More than underflow can take away: from a result, and from the remainder by which a double-double quotient or root is
@@ -168,7 +167,6 @@ impl<N: Elementary> Number for Ball<N> {
                 error += sizes[i] * other[j].radius + one[i].radius * other_sizes[j][1];
                 size += sizes[i] * other_sizes[j][0];
             }
-            #[expect(clippy::cast_precision_loss, reason = "a series has few terms")]
             let operations = 2.0 * pairs.len() as f64;
             // The sums of errors and sizes have three roundings for each pair.
             Self::rounded(midpoint, error * (1.0 + 2.0 * operations * f64::EPSILON), operations * size)
@@ -188,25 +186,7 @@ impl<N: Elementary> Elementary for Ball<N> {
         Self::rounded(midpoint, 0.0, size)
     }
 
-    fn to_f64(&self) -> f64 {
-        self.midpoint.to_f64()
-    }
-
-    fn to_double_double(&self) -> DoubleDouble {
-        self.midpoint.to_double_double()
-    }
-
-    fn to_big(&self) -> Big {
-        self.midpoint.to_big()
-    }
-
-    fn digits(&self) -> i32 {
-        self.midpoint.digits()
-    }
-
-    fn is_in_range(&self) -> bool {
-        self.midpoint.is_in_range()
-    }
+    answered_by!(self, self.midpoint);
 
     fn sqrt(&self) -> Self {
         let ([least, largest], root) = (self.sizes(), self.midpoint.sqrt());
@@ -252,10 +232,6 @@ impl<N: Elementary> Elementary for Ball<N> {
         }
         let (midpoint, radius) = (self.midpoint.times_power_of_two(exponent), self.radius.times_power_of_two(exponent));
         Self::within(midpoint, radius + TINY)
-    }
-
-    fn sign(&self) -> f64 {
-        self.midpoint.sign()
     }
 
     fn error(&self) -> f64 {

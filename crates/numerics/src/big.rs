@@ -10,10 +10,8 @@ use crate::number::Number;
 /// exact.
 pub type Big = FBig<HalfEven>;
 
-/// Converts `value` to a number of unlimited precision, so that sums and products are exact.
-///
-/// # Panics
-/// If `value` is not finite.
+/// Converts `value` to a number of unlimited precision, so that sums and products are exact. Panics if `value` is not
+/// finite.
 pub fn exactly(value: f64) -> Big {
     Big::try_from(value).expect("a finite number").with_precision(0).value()
 }

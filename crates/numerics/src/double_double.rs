@@ -62,7 +62,6 @@ impl DoubleDouble {
 
     /// Half of the number, exactly.
     #[inline]
-    #[must_use]
     pub fn half(self) -> Self {
         Self { hi: 0.5 * self.hi, lo: 0.5 * self.lo }
     }
@@ -93,7 +92,6 @@ impl DoubleDouble {
 
     /// The square root; 0 for a number ≤ 0.
     #[inline]
-    #[must_use]
     pub fn sqrt(self) -> Self {
         if self.hi <= 0.0 {
             return Self::ZERO;
@@ -127,14 +125,12 @@ impl DoubleDouble {
 
     /// The number divided by `unit`, a power of two. The result is exact as long as no digit leaves the range of f64.
     #[inline]
-    #[must_use]
     pub fn in_unit(self, unit: f64) -> Self {
         Self { hi: self.hi / unit, lo: self.lo / unit }
     }
 
     /// The number times 2^`exponent`. The result is exact as long as no digit leaves the range of f64.
     #[inline]
-    #[must_use]
     pub fn times_power_of_two(self, exponent: i32) -> Self {
         if (-1000..=1000).contains(&exponent) {
             let factor = f64::from_bits(u64::from((1023 + exponent).unsigned_abs()) << 52);

@@ -13,11 +13,9 @@ use crate::number::Number;
 /// A function takes the precision of its result from `self`, because it is a property of the value for some numbers.
 pub trait Elementary: Number + Div<Output = Self> {
     /// The finite number `value` in the precision of `self`.
-    #[must_use]
     fn like(&self, value: f64) -> Self;
 
     /// The number `value` in the precision of `self`.
-    #[must_use]
     fn like_big(&self, value: &Big) -> Self;
 
     /// The nearest f64; of a number with an error bound, the one nearest to its midpoint.
@@ -38,31 +36,24 @@ pub trait Elementary: Number + Div<Output = Self> {
     }
 
     /// The square root; 0 for a number ≤ 0.
-    #[must_use]
     fn sqrt(&self) -> Self;
 
     /// e to this power.
-    #[must_use]
     fn exp(&self) -> Self;
 
     /// Sine and cosine of an angle (rad).
-    #[must_use]
     fn sine_and_cosine(&self) -> [Self; 2];
 
     /// The angle (rad) of the point (`x`, `self`), from -π to π.
-    #[must_use]
     fn atan2(&self, x: &Self) -> Self;
 
     /// π in the precision of `self`.
-    #[must_use]
     fn pi(&self) -> Self;
 
     /// The number times 2^`exponent`.
-    #[must_use]
     fn times_power_of_two(&self, exponent: i32) -> Self;
 
     /// The same number with an error bound that is larger by `error` ≥ 0, for numbers that have one.
-    #[must_use]
     fn widened(self, _error: f64) -> Self {
         self
     }
@@ -70,7 +61,6 @@ pub trait Elementary: Number + Div<Output = Self> {
     /// The same as [`widened`](Elementary::widened). Of a series in some variables, each coefficient is widened: what is
     /// added is then any function that is at most `error` where every variable, a complex number, is within 1 of 0, for no
     /// coefficient of such a function is larger (Cauchy's estimate).
-    #[must_use]
     fn widened_throughout(self, error: f64) -> Self {
         self.widened(error)
     }
@@ -80,8 +70,7 @@ pub trait Elementary: Number + Div<Output = Self> {
         (self.to_f64().abs() + self.error()) * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too. Of a number
-    /// with an error bound it is said of the midpoint.
+    /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too.
     fn is_in_range(&self) -> bool {
         self.to_f64().is_finite()
     }
@@ -104,17 +93,41 @@ pub trait Elementary: Number + Div<Output = Self> {
     }
 
     /// The absolute value; of a number with an error bound, the number with the sign that its midpoint has not.
-    #[must_use]
     fn magnitude(&self) -> Self {
         if self.sign() < 0.0 { -self.clone() } else { self.clone() }
     }
 
     /// Half of the number.
-    #[must_use]
     fn halved(&self) -> Self {
         self.times_power_of_two(-1)
     }
 }
+
+/// The questions of [`Elementary`] that one part of a number answers: of a ball its midpoint, of a series its constant.
+macro_rules! answered_by {
+    ($number:ident, $part:expr) => {
+        fn to_f64(&$number) -> f64 {
+            $crate::Elementary::to_f64(&$part)
+        }
+
+        fn to_double_double(&$number) -> $crate::DoubleDouble {
+            $crate::Elementary::to_double_double(&$part)
+        }
+
+        fn to_big(&$number) -> $crate::Big {
+            $crate::Elementary::to_big(&$part)
+        }
+
+        fn digits(&$number) -> i32 {
+            $crate::Elementary::digits(&$part)
+        }
+
+        fn sign(&$number) -> f64 {
+            $crate::Elementary::sign(&$part)
+        }
+    };
+}
+pub(crate) use answered_by;
 
 /// Functions are those of the platform: sine, cosine, exponential and atan2 by the standard library.
 impl Elementary for f64 {

@@ -6,7 +6,7 @@
 //! | numbers of twice the precision of f64, and the exact sums and products that they are made of | [`double_double`] |
 //! | numbers of any precision | [`big`] |
 //! | the trait over which a formula is written once for all kinds of numbers | [`number`] |
-//! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`], [`angle`] |
+//! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`] |
 //! | the trait of the numbers that also have roots, exponentials and angles | [`elementary`] |
 //! | numbers with a bound of their error, which grows with each operation | [`ball`] |
 //! | Taylor series in up to three variables, whose terms are the derivatives of a formula | [`jet`] |
@@ -16,7 +16,7 @@
 //!
 //! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]. Each bound is stated at its operation.
 
-pub mod angle;
+mod angle;
 pub mod ball;
 pub mod big;
 pub mod double_double;
@@ -29,7 +29,6 @@ pub mod quantity;
 pub mod scale;
 pub mod taylor_model;
 
-pub use angle::{Angle, AngleUnit};
 pub use ball::{Ball, WideBall};
 pub use big::Big;
 pub use double_double::DoubleDouble;

@@ -13,7 +13,6 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     /// `self` × `factor` + `term`. In a register it is a fused multiply-add, which rounds once; other numbers are
     /// multiplied and then added.
     #[inline(always)]
-    #[must_use]
     fn times_plus(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
@@ -21,7 +20,6 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     /// The sums `Σ one[i] other[j]` over the pairs (i, j) that belong to each of `N` results: `ends[k]` is where those of number k
     /// end, and each has at least one.
     #[inline(always)]
-    #[must_use]
     fn sums_of_products<const N: usize>(
         one: &[Self; N],
         other: &[Self; N],

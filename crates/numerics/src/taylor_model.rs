@@ -5,8 +5,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::big::Big;
-use crate::double_double::DoubleDouble;
-use crate::elementary::Elementary;
+use crate::elementary::{Elementary, answered_by};
 use crate::jet::Jet;
 use crate::number::Number;
 
@@ -145,25 +144,7 @@ impl<N: Elementary> Elementary for TaylorModel<N> {
         Self(self.0.like_big(value))
     }
 
-    fn to_f64(&self) -> f64 {
-        self.0.to_f64()
-    }
-
-    fn to_double_double(&self) -> DoubleDouble {
-        self.0.to_double_double()
-    }
-
-    fn to_big(&self) -> Big {
-        self.0.to_big()
-    }
-
-    fn digits(&self) -> i32 {
-        self.0.digits()
-    }
-
-    fn sign(&self) -> f64 {
-        self.0.sign()
-    }
+    answered_by!(self, self.0);
 
     fn error(&self) -> f64 {
         self.0.error() + self.change()
@@ -171,10 +152,6 @@ impl<N: Elementary> Elementary for TaylorModel<N> {
 
     fn has_known_sign(&self) -> bool {
         self.range().has_known_sign()
-    }
-
-    fn is_in_range(&self) -> bool {
-        self.0.is_in_range()
     }
 
     /// With z = change/|constant term| the remainder is at most 7/256 z⁵/(1 - z) of the root: no coefficient of √(1 + z) from
@@ -185,27 +162,21 @@ impl<N: Elementary> Elementary for TaylorModel<N> {
             return Self::constant(root);
         }
         let inverse = root.like(1.0) / self.0.value().clone();
-        let next = |last: &N, k: f64| last.clone() * inverse.clone() * last.like(1.5 - k) / last.like(k);
         let rest = self.remainder(&inverse) * root.bound() * (7.0 / 256.0);
-        self.composed(&Jet::<N, TERMS>::coefficients(&root, next), rest)
+        self.composed(&Jet::<N, TERMS>::of_root(&root, &inverse), rest)
     }
 
     fn exp(&self) -> Self {
         let power = self.0.value().exp();
         let change = self.change();
         let rest = power.bound() * change.exp() * change.powi(5) / 120.0 * GROWN;
-        self.composed(&Jet::<N, TERMS>::coefficients(&power, |last, k| last.clone() / last.like(k)), rest)
+        self.composed(&Jet::<N, TERMS>::of_power(&power), rest)
     }
 
     fn sine_and_cosine(&self) -> [Self; 2] {
-        let [sin, cos] = self.0.value().sine_and_cosine();
         let rest = self.change().powi(5) / 120.0 * GROWN;
-        let cycle = |value: &N, slope: &N| {
-            let number = |part: &N, divisor: f64| part.clone() / part.like(divisor);
-            [value.clone(), slope.clone(), -number(value, 2.0), -number(slope, 6.0), number(value, 24.0)]
-        };
-        let fall = -sin.clone();
-        [self.composed(&cycle(&sin, &cos), rest), self.composed(&cycle(&cos, &fall), rest)]
+        let coefficients = Jet::<N, TERMS>::of_sine_and_cosine(self.0.value().sine_and_cosine());
+        coefficients.map(|coefficients| self.composed(&coefficients, rest))
     }
 
     /// Of this function a model knows no more than that it is an angle.
@@ -233,6 +204,7 @@ impl<N: Elementary> Elementary for TaylorModel<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::DoubleDouble;
     use crate::ball::Ball;
 
     /// All operations and functions but atan2.

@@ -238,7 +238,7 @@ pub mod trace;
 /// Numbers with their units, and what their conversion rounds.
 pub mod quantity {
     pub use crate::rounding::{BodyRounding, Rounding};
-    pub use dynamics::{Angle, AngleUnit, Dimension, Quantity, Unit};
+    pub use dynamics::{Dimension, Quantity, Unit};
 }
 
 /// How the planner decides: what each model offers to a [`Scene`], and why it is passed over.

@@ -163,7 +163,7 @@ mod tests {
             let part = |square: f64| 2e4 * (f64::from(index) * square.sqrt()).fract() - 1e4;
             let rate = [2.0, 3.0, 5.0].map(part);
             let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit();
-            let (unit, time) = (degrees.angle_unit(), TimeOfFlight::Given(1e5));
+            let (unit, time) = (degrees.size(), TimeOfFlight::Given(1e5));
             let toss = |launch: Launch| Toss { body: Coin::DISC.into(), launch };
             let typed = toss(Launch::in_unit(rate, unit, time).unwrap());
             let rounded = toss(Launch::new(rate.map(|part| degrees.to_si(part)), time).unwrap());

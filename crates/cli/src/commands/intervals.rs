@@ -58,7 +58,7 @@ impl Args {
         }
         let thrown = |speed: f64| TimeOfFlight::thrown(speed, self.gravity, self.drop);
         // The slowest throw has to reach the landing, too.
-        let launch = self.rate.thrown()?.launch(&body, thrown(slowest))?.with_tilt(self.tilt.angle())?;
+        let launch = self.rate.thrown()?.launch(&body, thrown(slowest))?.with_tilt(self.tilt.quantity())?;
         let toss = Toss { body, launch: launch.with_time_of_flight(thrown(fastest))? };
         let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {

@@ -79,10 +79,6 @@ pub struct Entry {
 
 impl Entry {
     /// The body of this entry.
-    ///
-    /// # Errors
-    /// As [`Coin::from_cylinder`] and [`Body::from_tensor`]; none for the entries of [`CATALOGUE`] and [`BODIES`], as tests
-    /// confirm.
     pub fn body(&self) -> Result<Body, InputError> {
         match self.shape {
             Shape::Moments(moments) => Body::from_moments(moments),
@@ -102,9 +98,6 @@ impl Entry {
     }
 
     /// The coin of this entry.
-    ///
-    /// # Errors
-    /// As [`Entry::body`]; [`InputError::OutsideModel`] for a body that is no coin.
     pub fn coin(&self) -> Result<Coin, InputError> {
         self.body()?.coin().ok_or(NO_COIN)
     }
@@ -176,9 +169,6 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
 }
 
 /// The body called `name`, of the coins and of [`BODIES`].
-///
-/// # Errors
-/// [`InputError::UnknownName`] with the list of known names.
 pub fn named_body(name: &str) -> Result<Body, InputError> {
     find_named("coin", name, &entries().collect::<Vec<_>>(), |entry| entry.name)?.body()
 }
@@ -248,7 +238,6 @@ mod tests {
         let part = |index: i32, number: i32| (f64::from(index) + 0.5) / f64::from(number) - 0.5;
         let places = (0..ACROSS).flat_map(|x| (0..ACROSS).map(move |y| (2.0 * part(x, ACROSS), 2.0 * part(y, ACROSS))));
         let inside: Vec<(f64, f64)> = places.filter(|(x, y)| x * x + y * y <= 1.0).collect();
-        #[expect(clippy::cast_precision_loss, reason = "some ten thousand pieces")]
         let each = mass / (inside.len() as f64 * f64::from(UP));
         let at = |(x, y): (f64, f64), z: i32| {
             [centre[0] + half[0] * x, centre[1] + half[1] * y, centre[2] + high * part(z, UP)]

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use numerics::AngleUnit;
+use numerics::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::Given;
@@ -17,7 +17,7 @@ pub(super) enum Number {
 
 impl From<&Given> for Number {
     fn from(given: &Given) -> Self {
-        let is_si = given.unit().angle_unit() == AngleUnit::RADIAN;
+        let is_si = given.unit().size() == Unit::ONE;
         if is_si { Self::Si(given.value()) } else { Self::Text(given.to_string()) }
     }
 }

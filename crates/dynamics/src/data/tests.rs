@@ -1,6 +1,6 @@
 use std::fmt::Debug;
 
-use numerics::{Angle, AngleUnit, Quantity, Unit};
+use numerics::Unit;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -30,32 +30,12 @@ fn a_toss_is_read_with_its_defaults() {
 }
 
 #[test]
-fn a_toss_that_was_written_is_read_back() {
-    let thrown =
-        [TimeOfFlight::Given(0.3), TimeOfFlight::thrown(3.1, 9.78, None), TimeOfFlight::thrown(3.1, 9.78, Some(-0.2))];
-    for time in thrown {
-        let launch = Launch::new([0.1, -7.0, 1e-300], time).unwrap().with_tilt(1.1).unwrap();
-        let attitude = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
-        let coins = [Coin::from_moments(0.3, 0.1), Coin::from_cylinder(0.003, 0.01874, 0.00114)];
-        for (coin, launch) in coins.into_iter().zip([launch, launch.with_attitude(attitude)]) {
-            let toss = Toss::new(coin.unwrap(), launch);
-            assert_eq!(read(&toml::to_string(&toss).unwrap()), Ok(toss));
-        }
-    }
-}
-
-#[test]
 fn invalid_input_is_refused_with_the_field_at_fault() {
     let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
     for (text, message) in [
         (format!("coin = {{ moments = [1, 1, 2, 3] }}\n{launch}"), "moments [kg m²] = '[1.0, 1.0, 2.0, 3.0]' can't"),
-        (format!("coin = {{ moments = [1, 3] }}\n{launch}"), "I3 [kg m²] = 3.0 is outside its valid range"),
-        (format!("coin = {{ moments = [1, 1, 3] }}\n{launch}"), "I3 [kg m²] = 3.0 is larger than I1 + I2 by 1.0"),
         (format!("coin = {{ moments = [1] }}\n{launch}"), "moments [kg m²] = '[1.0]' can't be used"),
-        (format!("{launch}drag = 0.4"), "drag is outside the model: the flight is free of torque and drag"),
         (format!("{launch}bounce = true"), "bounce is outside the model: the flight ends at the first landing"),
-        (format!("{launch}attitude = [0, 0, 0, 0]"), "attitude (largest component) = 0.0"),
-        (format!("{launch}drop = -1"), "drop [m] = -1.0 is outside its valid range"),
         (format!("{launch}wind = 3"), "unknown field `wind`"),
         (
             format!("coin = {{ moments = [1, 1], cylinder = [1, 1, 1] }}\n{launch}"),
@@ -75,7 +55,6 @@ fn invalid_input_is_refused_with_the_field_at_fault() {
             "rate = '[1.0, 1.0, 2.0, 9.0]' can't be used: expected WX",
         ),
         ("[launch]\nrate = [1, 1]\nspeed = 3".to_owned(), "rate = '[1.0, 1.0]'"),
-        ("[launch]\nrate = [1, 1, 2]".to_owned(), "speed is missing: expected a speed, or a time of flight"),
         ("[launch]\nrate = ['1rev/s', '2deg/s', 0]\nspeed = 3".to_owned(), "rate = '1.0rev/s,2.0deg/s,0.0rad/s' can't"),
         (format!("{launch}attitude = {{ tilt = 1, unit_quaternion = [1, 0, 0, 0] }}"), "attitude = 'given twice'"),
         (format!("{launch}tilt = 1\nattitude = {{ tilt = 2 }}"), "tilt = 'given twice'"),
@@ -84,7 +63,6 @@ fn invalid_input_is_refused_with_the_field_at_fault() {
         let found = read(&text).unwrap_err();
         assert!(found.starts_with(message), "'{found}' for '{text}'");
     }
-    assert!(read(&format!("coin = {{ moments = [1, 1, 2] }}\n{launch}")).is_ok());
 }
 
 #[test]
@@ -99,26 +77,21 @@ fn a_body_that_was_written_is_read_back() {
     for other in ["'racket'", "{ moments = [1, 1.1, 2] }"] {
         assert_refused::<Coin>(other, "coin is outside the model: with I1 ≠ I2 ");
     }
-    let rigid = |text: &str| toml::from_str::<Toss>(text).map_err(|error| error.message().to_owned());
     let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
-    assert_eq!(rigid(launch).unwrap().body, Coin::PAPER.into());
     for (text, moments) in [
         ("coin = 'racket'", [0.00121, 0.01638, 0.01748]),
         ("body = { moments = [3, '2kg·m²', 4] }", [3.0, 2.0, 4.0]),
         ("coin = { inertia = ['3e7g·cm²', 2, 4, 0, 0, 0] }", [3.0, 2.0, 4.0]),
     ] {
-        assert_eq!(rigid(&format!("{text}\n{launch}")).unwrap().body.moments(), Some(moments), "{text}");
+        assert_eq!(read(&format!("{text}\n{launch}")).unwrap().body.moments(), Some(moments), "{text}");
     }
     for (text, message) in [
-        ("coin = { moments = [1, 2, 3.5] }", "I3 [kg m²] = 3.5 is larger than I1 + I2 by 0.5"),
         ("coin = { moments = [1, nan, 2] }", "I2 [kg m²] = NaN is outside"),
         ("coin = { inertia = [1, 1, 1] }", "inertia = '[1.0, 1.0, 1.0]' can't be used"),
-        ("coin = { inertia = [1, 1, 1, 2, 0, 0] }", "inertia tensor (smallest principal moment) [kg m²] = -1.0"),
         ("coin = { inertia = [1, 1, 1, '2m', 0, 0] }", "inertia = '2m' can't be used"),
-        ("coin = 'groat'", "coin = 'groat' is unknown; known: paper, "),
         ("coin = 'book'\nbody = 'book'", "coin = 'given twice' can't be used"),
     ] {
-        let found = rigid(&format!("{text}\n{launch}")).unwrap_err();
+        let found = read(&format!("{text}\n{launch}")).unwrap_err();
         assert!(found.starts_with(message), "'{found}' for '{text}'");
     }
 }
@@ -143,12 +116,11 @@ fn assert_refused<T: DeserializeOwned + Debug>(text: &str, message: &str) {
 
 #[test]
 fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in() {
-    let degree = Unit::ratio(1, 360).unwrap();
-    let per_minute = Dimension::TurnRate.given("rate", "1rpm").unwrap().unit().angle_unit();
+    let per_minute = Dimension::TurnRate.given("rate", "1rpm").unwrap().unit().size();
     let milli = Unit::ratio(1, 1000).unwrap();
     let launch = Launch::in_unit([0.1, 0.0, 2280.0], per_minute, TimeOfFlight::Given(0.3)).unwrap();
-    let launch = launch.with_tilt(Angle::Turns(Quantity::new(15.1, degree))).unwrap();
-    let [mass, radius, thickness] = [5.67, 12.13, 1.75].map(|value| Quantity::new(value, milli));
+    let launch = launch.with_tilt(Unit::DEGREE.times(15.1)).unwrap();
+    let [mass, radius, thickness] = [5.67, 12.13, 1.75].map(|value| milli.times(value));
     let toss = Toss::new(Coin::from_cylinder(mass, radius, thickness).unwrap(), launch);
     assert_read_back(&toss);
     let text = toml::to_string(&toss).unwrap();
@@ -162,7 +134,7 @@ fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in()
     assert_eq!(mixed.launch.given_rate().0.as_slice(), [2.0, 0.0, 3.0]);
     assert_eq!(mixed.launch.time_of_flight(), TimeOfFlight::thrown(2.5, DEFAULT_GRAVITY, Some(-0.05)));
     // A unit without a name is written by its size.
-    let odd = Launch::in_unit([1.0, 2.0, 3.0], AngleUnit::Turns(Unit::ratio(1, 7).unwrap()), TimeOfFlight::Given(1.0));
+    let odd = Launch::in_unit([1.0, 2.0, 3.0], Unit::ratio(1, 7).unwrap().of_turn(), TimeOfFlight::Given(1.0));
     assert_read_back(&odd.unwrap());
 }
 

@@ -175,17 +175,12 @@ impl SolveError {
     /// The same error with its time counted from launch, for a flight that began `seconds` after launch.
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
-        match &mut self {
-            Self::PhaseTooLarge { .. }
-            | Self::NotOffered { .. }
-            | Self::NotSymmetric { .. }
-            | Self::NotProven { .. }
-            | Self::Misbehaved { .. }
-            | Self::Failed { .. } => {}
-            Self::Singular { time, .. }
-            | Self::StepLimit { time, .. }
-            | Self::StepSizeUnderflow { time }
-            | Self::NotFinite { time } => *time += seconds,
+        if let Self::Singular { time, .. }
+        | Self::StepLimit { time, .. }
+        | Self::StepSizeUnderflow { time }
+        | Self::NotFinite { time } = &mut self
+        {
+            *time += seconds;
         }
         self
     }

@@ -88,23 +88,6 @@ fn refuses_a_scheme_that_is_no_runge_kutta_scheme() {
     assert_eq!(integrate(&Circle, Vector2::x(), 1.0, 1.0, &method), refused);
 }
 
-#[test]
-fn too_many_steps_are_refused_before_any_work() {
-    let method = Stepping::fixed(Scheme::RK4, 1e-9).unwrap();
-    assert_eq!(
-        integrate(&Circle, Vector2::x(), 1.0, 1.0, &method),
-        Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT })
-    );
-}
-
-#[test]
-fn the_scale_changes_the_unit_of_time_and_no_bit_of_the_result() {
-    let method = methods()[0];
-    let (slow, _) = integrate(&Circle, Vector2::x(), 2.0, 1.0, &method).unwrap();
-    let (fast, _) = integrate(&Circle, Vector2::x(), 0.5, 4.0, &method).unwrap();
-    assert_eq!(slow, fast);
-}
-
 /// The circle, with a singular point at every crossing of the axis x = 0.
 struct Watched;
 

@@ -57,27 +57,9 @@ mod tests {
         ] {
             assert_eq!(read_count(text), Some(count), "{text}");
         }
-        for text in [
-            "",
-            ".",
-            "-5",
-            "\u{2212}5",
-            "1.5",
-            "1e-1",
-            "15e-1",
-            "1e20",
-            "18446744073709551616",
-            "1e",
-            "e3",
-            "0x10",
-            "1_000",
-            "abc",
-            "nan",
-            "inf",
-            "1e99999999999",
-            "2,000",
-            "30±1",
-        ] {
+        let refused =
+            "|.|-5|\u{2212}5|1.5|1e-1|15e-1|1e20|18446744073709551616|1e|e3|0x10|1_000|abc|nan|inf|1e99999999999|2,000";
+        for text in refused.split('|').chain(["30±1"]) {
             assert_eq!(read_count(text), None, "{text}");
         }
     }

@@ -39,20 +39,6 @@ fn toss(tilt: f64) -> Toss {
 }
 
 #[test]
-fn a_landing_keeps_what_it_is_given() {
-    let landing = still(None).land(&toss(1.0)).unwrap();
-    assert_eq!((landing.norm_error, landing.cos_tilt), (0.0, landing.state.attitude.cos_tilt()));
-    let given = landing.with_norm_error(1e-9).with_cos_tilt(0.25).with_error(0.5);
-    assert_eq!((given.norm_error, given.tilt()), (1e-9, Tilt { cos_tilt: 0.25, error: Some(0.5) }));
-    let [one, two] = [(1, 2, 3), (10, 20, 30)].map(|(rhs_calls, accepted_steps, rejected_steps)| Work {
-        rhs_calls,
-        accepted_steps,
-        rejected_steps,
-    });
-    assert_eq!(one + two, Work { rhs_calls: 11, accepted_steps: 22, rejected_steps: 33 });
-}
-
-#[test]
 fn an_outcome_is_undecided_within_the_error_estimate() {
     let quarter = std::f64::consts::FRAC_PI_2;
     for error in [0.0, 1e-3] {

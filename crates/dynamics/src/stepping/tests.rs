@@ -38,16 +38,6 @@ fn the_estimate_of_a_long_flight_counts_the_steps_of_its_tightened_tolerance() {
     }
 }
 
-#[test]
-fn the_inverse_root_of_a_tolerance_is_the_next_power_of_two() {
-    let eps = f64::EPSILON;
-    for (tolerance, order, root) in
-        [(eps, 8, 128.0), (eps, 5, 2048.0), (eps, 4, 8192.0), (1e-8, 1, 134_217_728.0), (0.9, 3, 2.0)]
-    {
-        assert_eq!(inverse_root(tolerance, order), root, "{tolerance:e} {order}");
-    }
-}
-
 /// The documented defaults, on which the figures of every flight without settings rest.
 #[test]
 fn the_defaults_are_dop853_at_a_tolerance_of_1e_10_and_steps_of_a_millisecond() {

@@ -1,6 +1,6 @@
 //! Tests of the fields of a toss: their table, what contradicts itself, and texts that are read back.
 
-use numerics::{Quantity, Unit};
+use numerics::Unit;
 
 use super::*;
 
@@ -84,7 +84,7 @@ fn a_toss_is_made_of_its_fields_in_their_units() {
     let found = toss("rate=1rev/s,0,2rev/s speed=250cm/s drop=-50mm tilt=15deg cylinder=5.67g,12.13mm,1.75mm").unwrap();
     assert_eq!(found.launch.given_rate().0.as_slice(), [1.0, 0.0, 2.0]);
     assert_eq!(found.launch.time_of_flight(), TimeOfFlight::thrown(2.5, DEFAULT_GRAVITY, Some(-0.05)));
-    assert_eq!(found.launch.attitude().tilt().unwrap().radians(), Dimension::Angle.read("", "15deg").unwrap());
+    assert_eq!(found.launch.attitude().tilt().unwrap().to_f64(), Dimension::Angle.read("", "15deg").unwrap());
     assert_eq!(found.body.coin().unwrap().cylinder().unwrap()[1].value(), 12.13);
     let precessing = toss("turn=6 psi=60deg time=1 coin=disc").unwrap();
     let psi = Dimension::Angle.read("", "60deg").unwrap();
@@ -112,10 +112,10 @@ fn what_is_rounded_is_known() {
 #[test]
 fn the_fields_of_a_toss_are_those_of_the_same_toss() {
     let [thousandth, degree, seventh] = [(1, 1000), (1, 360), (3, 7)].map(|(n, d)| Unit::ratio(n, d).unwrap());
-    let millimetres = |value: f64| Quantity::new(value, thousandth);
+    let millimetres = |value: f64| thousandth.times(value);
     let bodies: [Body; 6] = [
         Coin::PAPER.into(),
-        Coin::from_cylinder(millimetres(5.67), millimetres(24.26), Quantity::new(0.1, seventh)).unwrap().into(),
+        Coin::from_cylinder(millimetres(5.67), millimetres(24.26), seventh.times(0.1)).unwrap().into(),
         Coin::from_cylinder(0.003, millimetres(24.26), 0.0).unwrap().into(),
         Body::from_moments([1.0, 2.0, 2.25]).unwrap(),
         Body::from_inertia([2.0, 3.0, 4.0, 0.1, -0.2, 1e-300]).unwrap(),
@@ -123,7 +123,7 @@ fn the_fields_of_a_toss_are_those_of_the_same_toss() {
     ];
     let times =
         [TimeOfFlight::Given(3.0), TimeOfFlight::thrown(3.1, 9.78, None), TimeOfFlight::thrown(3.1, 9.78, Some(-0.2))];
-    let units = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::Turns(seventh), AngleUnit::Radians(seventh)];
+    let units = [Unit::ONE, degree.of_turn(), seventh.of_turn(), seventh];
     let mut turned = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
     for turn in 0..60 {
         let unit = units[turn % 4];

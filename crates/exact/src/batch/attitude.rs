@@ -11,13 +11,8 @@ use crate::compensated::compensated_landing;
 
 impl Batch<'_> {
     /// Writes the attitude at landing of each toss, from the body to the laboratory frame (LF), as columns of the
-    /// quaternion's w, x, y and z. The sign of each quaternion is arbitrary.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no attitude; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If a column does not have one entry per toss.
+    /// quaternion's w, x, y and z. The sign of each quaternion is arbitrary. Fails for the first toss that has no
+    /// attitude; the contents of `out` are then unspecified. Panics if a column does not have one entry per toss.
     pub fn attitudes(&self, out: [&mut [f64]; 4]) -> Result<(), Error> {
         assert!(out.iter().all(|column| column.len() == self.tosses.len()), "each column must have one entry per toss");
         // Half of an angle, measured in quarters of a turn, is twice the angle measured in turns.

@@ -16,13 +16,8 @@ use super::momentum::{Constants, Extent, TiltTerms, without_negligible};
 use crate::compensated::compensated_cos_tilt;
 
 impl Batch<'_> {
-    /// Writes cos θ at landing of each toss.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no cos θ; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If `out` does not have one entry per toss.
+    /// Writes cos θ at landing of each toss. Fails for the first toss that has no cos θ; the contents of `out` are then
+    /// unspecified. Panics if `out` does not have one entry per toss.
     pub fn cos_tilts(&self, out: &mut [f64]) -> Result<(), Error> {
         assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
         let constants = Constants::new(&self.tosses);
@@ -92,27 +87,5 @@ impl Kernel<6, 1> for Tilted {
 
     fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
         compensated_cos_tilt(toss).map(|cos| [cos])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use dynamics::{Attitude, Coin, Tosses};
-
-    use super::*;
-
-    #[test]
-    fn cos_tilt_does_not_depend_on_the_norm_of_the_quaternion() {
-        let speeds = [0.0, 1.0, 2.0, 3.0, 4.0];
-        let columns = [[3.0; 5], [4.0; 5], [5.0; 5]];
-        let columns = columns.each_ref().map(<[f64; 5]>::as_slice);
-        let tosses = Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, &speeds).unwrap();
-        let (mut expected, mut found) = ([f64::NAN; 5], [f64::NAN; 5]);
-        Batch::new(tosses).cos_tilts(&mut expected).unwrap();
-        let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
-        let doubled = TiltTerms { vertical: vertical.map(|part| 4.0 * part), norm: 4.0 * norm };
-        let kernel = &Tilted::new(Constants::new(&tosses), doubled);
-        Batch::new(tosses).level.run(BatchRun { kernel, tosses, out: [&mut found] }).unwrap();
-        assert_eq!(found, expected);
     }
 }

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use dynamics::{CoinToss, Error, SolveError, Tosses};
+use dynamics::{Body, CoinToss, Error, SolveError, Tosses};
 use numerics::lanes::{Real, Simd, WithSimd};
 
 use super::momentum::{Constants, Extent};
@@ -14,7 +14,30 @@ const TILE: usize = 128;
 
 /// Columns of a tile, aligned to whole cache lines for fast loads and stores.
 #[repr(align(64))]
-struct Columns<const N: usize>([[f64; TILE]; N]);
+pub(super) struct Columns<const N: usize, const TILE: usize>([[f64; TILE]; N]);
+
+impl<const N: usize, const TILE: usize> Columns<N, TILE> {
+    #[inline(always)]
+    pub(super) fn of(value: f64) -> Self {
+        Self([[value; TILE]; N])
+    }
+
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, at: usize) -> [Real<S>; N] {
+        let mut parts = [Real::splat(simd, 0.0); N];
+        for (part, column) in parts.iter_mut().zip(&self.0) {
+            *part = Real::load(simd, &column[at..]);
+        }
+        parts
+    }
+
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&mut self, parts: &[Real<S>; N], at: usize) {
+        for (part, column) in parts.iter().zip(&mut self.0) {
+            part.store(&mut column[at..]);
+        }
+    }
+}
 
 /// A computation that makes `OUT` columns of results by way of `MID` intermediate columns.
 pub(super) trait Kernel<const MID: usize, const OUT: usize> {
@@ -44,25 +67,18 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for Batch
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
-        let mut padded = Columns([[1.0; TILE]; 4]);
-        let mut begun = Columns([[0.0; TILE]; MID]);
+        let (mut padded, mut begun) = (Columns::<4, TILE>::of(1.0), Columns::<MID, TILE>::of(0.0));
         for start in (0..self.tosses.len()).step_by(TILE) {
             let tile = start..(start + TILE).min(self.tosses.len());
-            let [x, y, z, speeds] = whole_registers(&self.tosses, tile.clone(), Real::<S>::LANES, &mut padded.0);
+            let [x, y, z, speeds] = whole_registers(&self.tosses, tile.clone(), Real::<S>::LANES, &mut padded);
             let mut extent = Extent::new(simd);
             for at in (0..x.len()).step_by(Real::<S>::LANES) {
                 let rates = [Real::load(simd, &x[at..]), Real::load(simd, &y[at..]), Real::load(simd, &z[at..])];
                 let parts = self.kernel.begin(rates, Real::load(simd, &speeds[at..]), &mut extent);
-                for (part, column) in parts.iter().zip(&mut begun.0) {
-                    part.store(&mut column[at..]);
-                }
+                begun.store(&parts, at);
             }
             for at in (0..x.len()).step_by(Real::<S>::LANES) {
-                let mut parts = [Real::splat(simd, 0.0); MID];
-                for (part, column) in parts.iter_mut().zip(&begun.0) {
-                    *part = Real::load(simd, &column[at..]);
-                }
-                let results = self.kernel.end(parts);
+                let results = self.kernel.end(begun.load(simd, at));
                 for (result, out) in results.iter().zip(&mut self.out) {
                     result.store_up_to(&mut out[start + at..tile.end]);
                 }
@@ -97,19 +113,19 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> BatchRun<'_, '_, K
 /// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
 /// to `room`, which holds ordinary tosses beyond them.
 #[inline(always)]
-fn whole_registers<'a>(
-    tosses: &Tosses<'a>,
+pub(super) fn whole_registers<'a, B: Copy + Into<Body>, const TILE: usize>(
+    tosses: &Tosses<'a, B>,
     tile: Range<usize>,
     lanes: usize,
-    room: &'a mut [[f64; TILE]; 4],
+    room: &'a mut Columns<4, TILE>,
 ) -> [&'a [f64]; 4] {
     let columns = tosses.columns(tile);
     let tosses = columns[0].len();
     if tosses.is_multiple_of(lanes) {
         return columns;
     }
-    for (padded, column) in room.iter_mut().zip(columns) {
+    for (padded, column) in room.0.iter_mut().zip(columns) {
         padded[..tosses].copy_from_slice(column);
     }
-    room.each_ref().map(|column| &column[..tosses.next_multiple_of(lanes)])
+    room.0.each_ref().map(|column| &column[..tosses.next_multiple_of(lanes)])
 }

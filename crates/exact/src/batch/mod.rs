@@ -61,17 +61,6 @@ impl Batch<'_> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_batch_takes_the_widest_level_unless_another_is_set() {
-        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&[]; 3], &[]).unwrap();
-        let levels = SimdLevel::all();
-        let widest = levels.last().map(|level| level.name());
-        assert_eq!(Some(Batch::new(tosses).level.name()), widest);
-        for level in levels {
-            assert_eq!(Batch::new(tosses).on(level).level.name(), level.name());
-        }
-    }
-
     /// These have a shorter formula, with a smaller error.
     #[test]
     fn a_batch_is_flat_from_horizontal_alone() {

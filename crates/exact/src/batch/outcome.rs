@@ -1,5 +1,5 @@
 //! This file proves the outcomes of all tosses of a batch. A filter in f64 decides nearly all of them in SIMD
-//! registers, and [`certify`] proves the few that the filter leaves undecided.
+//! registers, and [`certify`](crate::certify) proves the few that the filter leaves undecided.
 //!
 //! The filter evaluates G = A + B cos φ + C sin φ of [`TiltTerms`](crate::TiltTerms), which has the sign of cos θ. Let
 //! the phase be φ = 2πτ, x what is left of τ without its whole turns, |x| ≤ ½, s = sin πx and c = cos πx. Then
@@ -24,16 +24,15 @@
 
 use std::ops::Range;
 
-use dynamics::{CoinToss, Error, Outcome, SolveError};
+use dynamics::{Coin, CoinToss, Error, Outcome, SolveError};
 use numerics::UNIT_ROUNDOFF;
-use numerics::lanes::{ROUGH_ERROR, Real, Simd, SimdLevel, rough_cos_of_half, rough_sin_of_half};
+use numerics::lanes::{ROUGH_ERROR, Real, Simd, rough_cos_of_half, rough_sin_of_half};
 
 use super::Batch;
 use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
-use super::proving::{self, Proving};
-use crate::certificate::{Certificate, ProvenCounts};
-use crate::rigid::certify;
+use super::proving;
+use crate::certificate::ProvenCounts;
 
 /// |G|/size up to which the filter leaves a toss undecided, for a phase of 0.
 const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
@@ -45,52 +44,16 @@ const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
 const SMALLEST: f64 = 1e-200;
 
 impl Batch<'_> {
-    /// Writes the proven outcome of each toss. It is undecided only for an exact tie.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If `out` does not have one entry per toss.
+    /// Writes the proven outcome of each toss. It is undecided only for an exact tie. Fails for the first toss that has
+    /// no outcome; the contents of `out` are then unspecified. Panics if `out` does not have one entry per toss.
     pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
-        proving::outcomes(&Filtered(self, Filter::new(self)), out)
+        self.outcomes_by(&Filter::new(self), out)
     }
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome.
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by
+    /// [`certify`](crate::certify). Fails for the first toss that has no outcome.
     pub fn count(&self) -> Result<ProvenCounts, Error> {
-        self.count_and(|_| ())
-    }
-
-    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`] did.
-    ///
-    /// # Errors
-    /// As [`Batch::count`].
-    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
-        proving::count(&Filtered(self, Filter::new(self)), left)
-    }
-}
-
-/// A batch with its filter.
-struct Filtered<'a, 'b>(&'a Batch<'b>, Filter);
-
-impl Proving for Filtered<'_, '_> {
-    fn len(&self) -> usize {
-        self.0.tosses.len()
-    }
-
-    fn level(&self) -> SimdLevel {
-        self.0.level
-    }
-
-    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
-        self.1.run(self.0, range, heights)
-    }
-
-    fn certify(&self, index: usize) -> Result<Certificate, Error> {
-        self.0.tosses.solve(index, certify)
+        self.counts_by(&Filter::new(self))
     }
 }
 
@@ -109,10 +72,11 @@ impl Filter {
             Self::Tilted(Tilted(constants, TiltTerms::new(&batch.tosses)))
         }
     }
+}
 
-    /// Writes by how much |G| exceeds its threshold, with the sign of G, for the tosses of `range`; 0 where it does
-    /// not. An error has the index of its toss in the whole batch.
-    fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+impl proving::Filter<Coin> for Filter {
+    /// Writes by how much |G| exceeds its threshold, with the sign of G.
+    fn heights(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
         let (level, tosses) = (batch.level, batch.tosses.part(range.clone()));
         let done = match self {
             Self::Flat(kernel) => level.run(BatchRun { kernel, tosses, out: [heights] }),
@@ -190,11 +154,11 @@ fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Coin, Tosses};
+    use dynamics::{Attitude, Stage, Tosses};
+    use numerics::lanes::SimdLevel;
 
-    use super::super::proving::BLOCK;
+    use super::proving::{BLOCK, Filter as _};
     use super::*;
-    use dynamics::Stage;
 
     const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
 
@@ -223,6 +187,9 @@ mod tests {
             assert_eq!(found, expected, "{length} at {}", level.name());
             assert!(length < 20 || (counted.heads > 3 && counted.tails > 3), "{counted:?}");
         }
+        let (mut heights, batch) = ([f64::NAN; 20], Batch::new(tosses(&speeds)));
+        Filter::new(&batch).heights(&batch, 0..20, &mut heights).unwrap();
+        assert!(heights.iter().all(|height| *height != 0.0), "the filter decides them");
     }
 
     #[test]
@@ -238,20 +205,5 @@ mod tests {
             assert!(counted.to_string().starts_with("launch 1031: rate y"), "{counted}");
             assert_eq!(listed.to_string(), counted.to_string());
         }
-    }
-
-    #[test]
-    fn heights_and_thresholds_are_proportional_to_the_norm_of_the_quaternion() {
-        let speeds = speeds();
-        let tosses = tosses(&speeds);
-        let heights = |factor: f64| {
-            let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
-            let terms = TiltTerms { vertical: vertical.map(|part| factor * part), norm: factor * norm };
-            let mut heights = [f64::NAN; 20];
-            let filter = Filter::Tilted(Tilted(Constants::new(&tosses), terms));
-            filter.run(&Batch::new(tosses), 0..20, &mut heights).unwrap();
-            heights
-        };
-        assert_eq!(heights(1024.0), heights(1.0).map(|height| 1024.0 * height));
     }
 }

@@ -3,82 +3,73 @@
 
 use std::ops::Range;
 
-use dynamics::{Error, Outcome, Stage};
-use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
+use dynamics::{Body, Error, Outcome, Stage};
+use numerics::lanes::{Real, Simd, WithSimd};
 
+use super::Batch;
 use crate::certificate::{Certificate, ProvenCounts};
+use crate::rigid::certify;
 
 /// Number of tosses that are filtered together, before the undecided ones among them are proven one by one.
 pub(super) const BLOCK: usize = 512;
 
-/// A filter of tosses, and the proof of those that it leaves.
-pub(super) trait Proving {
-    /// Number of tosses.
-    fn len(&self) -> usize;
-
-    /// The SIMD level of the filter.
-    fn level(&self) -> SimdLevel;
-
-    /// Writes numbers with the proven sign of cos θ for the tosses of `range`, at most [`BLOCK`]; 0 where the filter
-    /// proves none. An error has the index of its toss among all.
-    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error>;
-
-    /// The outcome of one toss.
-    fn certify(&self, index: usize) -> Result<Certificate, Error>;
+/// A filter of the tosses of a batch.
+pub(super) trait Filter<B> {
+    /// Writes numbers with the proven sign of cos θ for the tosses of `range`, at most [`BLOCK`]; 0 where it proves none. An
+    /// error has the index of its toss in the whole batch.
+    fn heights(&self, batch: &Batch<'_, B>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error>;
 }
 
-/// Writes the outcome of each toss.
-pub(super) fn outcomes(proving: &impl Proving, out: &mut [Outcome]) -> Result<(), Error> {
-    assert_eq!(out.len(), proving.len(), "`out` must have one entry per toss");
-    let mut heights = Column([0.0; BLOCK]);
-    for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-        let start = block * BLOCK;
-        let heights = &mut heights.0[..out.len()];
-        heights_of(proving, start..start + out.len(), heights)?;
-        for (index, (height, out)) in heights.iter().zip(out).enumerate() {
-            *out = of_sign(*height);
-            if *out == Outcome::Undecided {
-                *out = proving.certify(start + index)?.outcome();
+impl<B: Copy + Into<Body>> Batch<'_, B> {
+    /// Writes the outcome of each toss, by the `filter` or one by one.
+    pub(super) fn outcomes_by(&self, filter: &impl Filter<B>, out: &mut [Outcome]) -> Result<(), Error> {
+        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
+        let mut heights = Column([0.0; BLOCK]);
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            let start = block * BLOCK;
+            let heights = &mut heights.0[..out.len()];
+            self.heights(filter, start..start + out.len(), heights)?;
+            for (index, (height, out)) in heights.iter().zip(out).enumerate() {
+                *out = of_sign(*height);
+                if *out == Outcome::Undecided {
+                    *out = self.certify(start + index)?.outcome();
+                }
             }
         }
+        Ok(())
     }
-    Ok(())
-}
 
-/// Counts the outcomes, and calls `left` with each that the filter did not decide.
-pub(super) fn count(proving: &impl Proving, mut left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
-    let mut heights = Column([0.0; BLOCK]);
-    let mut counts = ProvenCounts::default();
-    for start in (0..proving.len()).step_by(BLOCK) {
-        let heights = &mut heights.0[..(proving.len() - start).min(BLOCK)];
-        heights_of(proving, start..start + heights.len(), heights)?;
-        let decided = proving.level().run(Signs(heights));
-        counts.add_many(decided.heads, decided.tails, Stage::F64);
-        if decided.heads + decided.tails < heights.len() as u64 {
-            for (index, _) in heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided) {
-                let certificate = proving.certify(start + index)?;
-                left(certificate);
-                counts.add(certificate);
+    /// Counts the outcomes, by the `filter` or one by one.
+    pub(super) fn counts_by(&self, filter: &impl Filter<B>) -> Result<ProvenCounts, Error> {
+        let mut heights = Column([0.0; BLOCK]);
+        let mut counts = ProvenCounts::default();
+        for start in (0..self.tosses.len()).step_by(BLOCK) {
+            let heights = &mut heights.0[..(self.tosses.len() - start).min(BLOCK)];
+            self.heights(filter, start..start + heights.len(), heights)?;
+            let [heads, tails] = self.level.run(Signs(heights));
+            counts.add_many(heads, tails, Stage::F64);
+            if heads + tails < heights.len() as u64 {
+                let is_open = |(_, height): &(usize, &f64)| of_sign(**height) == Outcome::Undecided;
+                for (index, _) in heights.iter().enumerate().filter(is_open) {
+                    counts.add(self.certify(start + index)?);
+                }
             }
         }
+        Ok(counts)
     }
-    Ok(counts)
-}
 
-/// The heights of a block. A filter finds invalid launches alone; a launch before them may be valid and without an outcome,
-/// and its error comes first.
-fn heights_of(proving: &impl Proving, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
-    proving.heights(range.clone(), heights).map_err(|error| {
-        let mut proven = range.map(|index| proving.certify(index));
-        proven.find_map(Result::err).unwrap_or(error)
-    })
-}
+    /// The heights of a block. A filter finds invalid launches alone; a launch before them may be valid and without an
+    /// outcome, and its error comes first.
+    fn heights(&self, filter: &impl Filter<B>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        filter.heights(self, range.clone(), heights).map_err(|error| {
+            let mut proven = range.map(|index| self.certify(index));
+            proven.find_map(Result::err).unwrap_or(error)
+        })
+    }
 
-/// Numbers of outcomes that the filter decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct FilterCounts {
-    heads: u64,
-    tails: u64,
+    fn certify(&self, index: usize) -> Result<Certificate, Error> {
+        self.tosses.solve(index, certify)
+    }
 }
 
 /// The outcome by the sign of a height: heads for positive, tails for negative, undecided for 0. It is looked up in a
@@ -97,10 +88,10 @@ struct Column([f64; BLOCK]);
 struct Signs<'a>(&'a [f64]);
 
 impl WithSimd for Signs<'_> {
-    type Output = FilterCounts;
+    type Output = [u64; 2];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> FilterCounts {
+    fn with_simd<S: Simd>(self, simd: S) -> [u64; 2] {
         let (zero, one) = (Real::splat(simd, 0.0), Real::splat(simd, 1.0));
         let smallest = Real::splat(simd, f64::from_bits(1));
         let (mut heads, mut tails) = (zero, zero);
@@ -110,12 +101,11 @@ impl WithSimd for Signs<'_> {
             heads = heads + smallest.at_most(height).choose(one, zero);
             tails = tails + height.at_most(-smallest).choose(one, zero);
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts below 2^53")]
-        let mut decided = FilterCounts { heads: heads.total() as u64, tails: tails.total() as u64 };
+        let [mut heads, mut tails] = [heads, tails].map(|count| count.total() as u64);
         for height in rest {
-            decided.heads += u64::from(*height > 0.0);
-            decided.tails += u64::from(*height < 0.0);
+            heads += u64::from(*height > 0.0);
+            tails += u64::from(*height < 0.0);
         }
-        decided
+        [heads, tails]
     }
 }

@@ -1,6 +1,6 @@
 //! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
-use dynamics::{AngleUnit, Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
+use dynamics::{Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
 use nalgebra::Vector3;
 use numerics::big::exactly;
 
@@ -78,40 +78,6 @@ fn exact_ties_are_undecided_and_nothing_else_is() {
 }
 
 #[test]
-fn every_stage_gives_the_same_outcome_where_it_decides() {
-    let mut decided = [0, 0];
-    for index in 1..=300 {
-        let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
-        let rate = [40.0 * part(2f64.sqrt()), 40.0 * part(3f64.sqrt()), 40.0 * part(5f64.sqrt())];
-        let attitude = [7f64, 13.0, 17.0, 19.0].map(|n| part(n.sqrt()));
-        let attitude = Attitude::from_components(attitude).unwrap();
-        let (speed, gravity) = (4.0 + 3.0 * part(11f64.sqrt()), 9.81);
-        let time = match index % 3 {
-            0 => TimeOfFlight::Given(speed),
-            1 => TimeOfFlight::Ballistic { speed, gravity },
-            _ => TimeOfFlight::BallisticTo { speed, gravity, drop: 2.0 },
-        };
-        let launch = Launch::new(rate, time).unwrap().with_attitude(attitude);
-        let toss = CoinToss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
-        let exact = by_multiprecision(&toss);
-        let double = cos_tilt_in_double_double(&toss).filter(Ball::has_sign).map(|ball| Outcome::of(ball.sign(), 0.0));
-        for (stage, outcome) in [by_f64(&toss), double].into_iter().enumerate() {
-            assert!(outcome.is_none_or(|outcome| outcome == exact), "stage {stage} of {toss:?}");
-            decided[stage] += u32::from(outcome.is_some());
-        }
-    }
-    assert_eq!(decided, [300, 300]);
-}
-
-#[test]
-fn a_phase_above_two_to_the_53_is_refused() {
-    let fast = toss(0.5, [1e10, 0.0, 0.0], Attitude::IDENTITY, 1e6);
-    assert!(matches!(certify_coin(&fast), Err(SolveError::PhaseTooLarge { .. })));
-    let spinning = toss(0.0, [0.0, 0.0, 1e300], Attitude::IDENTITY, 1.0);
-    assert!(matches!(certify_coin(&spinning), Err(SolveError::PhaseTooLarge { .. })));
-}
-
-#[test]
 fn the_cheapest_stage_that_can_decides() {
     let stage = |rate, time| certify_coin(&toss(1.0, rate, Attitude::IDENTITY, time)).unwrap().stage();
     assert_eq!(stage([20.0, 3.0, 0.0], 0.6), Stage::F64);
@@ -154,11 +120,11 @@ fn a_flat_coin_without_spin_is_decided_by_one_cosine() {
     }
 }
 
-/// And the bound of f64 is that of the derivation.
+/// Where f64 decides, which it does nearly always, so do they, alike. The bound of f64 is that of the derivation.
 #[test]
 fn balls_in_double_double_contain_those_of_more_digits() {
     assert_eq!([0.0, 2.0].map(f64_bound), [34.0, 48.0].map(|units: f64| units * UNIT_ROUNDOFF));
-    let mut largest: f64 = 0.0;
+    let (mut largest, mut by_f64_too) = (0.0_f64, 0);
     for index in 1..=300 {
         let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
         let rate = [2f64, 3.0, 5.0].map(|square| 40.0 * part(square.sqrt()));
@@ -170,8 +136,12 @@ fn balls_in_double_double_contain_those_of_more_digits() {
         let off = (ball.to_big() - fine.to_big()).to_f64().value().abs();
         assert!(off <= ball.radius() && ball.radius() < 1e-11, "{toss:?}: {off:e} {:e}", ball.radius());
         largest = largest.max(off / ball.radius());
+        if let Some(outcome) = by_f64(&toss) {
+            by_f64_too += 1;
+            assert_eq!((outcome, Outcome::of(ball.sign(), 0.0)), (by_multiprecision(&toss), outcome), "{toss:?}");
+        }
     }
-    assert!(largest > 1e-4, "{largest:e}");
+    assert!(largest > 1e-4 && by_f64_too > 250, "{largest:e} {by_f64_too}");
 }
 
 #[test]
@@ -260,25 +230,11 @@ fn an_outcome_that_holds_within_a_part_of_the_numbers_is_that_of_all_tosses_arou
     assert!(held > 1500 && changed > 20, "{held} hold, {changed} change");
 }
 
-/// After 104 857.6 turns about a diameter; in rad/s the rate is rounded, which shows after so many.
-#[test]
-fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
-    let (rate, time) = (0.1, f64::from(1 << 20));
-    let launch = |rate, unit| Launch::in_unit(rate, unit, TimeOfFlight::Given(time)).unwrap();
-    let in_turns = launch([rate, 0.0, 0.0], AngleUnit::Turns(Unit::ONE));
-    let in_radians = launch(in_turns.rate().into(), AngleUnit::RADIAN);
-    let [given, rounded] =
-        [in_turns, in_radians].map(|launch| cos_tilt(&CoinToss { coin: Coin::PAPER, launch }).unwrap());
-    let expected = (std::f64::consts::TAU * (rate * time).fract()).cos();
-    assert!((given - expected).abs() < 1e-15, "{given}, not {expected}");
-    assert!((rounded - expected).abs() > 1e-12);
-}
-
 /// In double-double its error would be up to 3e-16 at the largest phases. Half a unit in the last place is 2^-54.
 #[test]
 fn cos_tilt_is_the_nearest_f64_at_large_phases_and_of_rates_in_turns() {
-    let turn = AngleUnit::Turns(Unit::ONE);
-    for (unit, phase) in [(AngleUnit::RADIAN, 8.5e15), (AngleUnit::RADIAN, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
+    let turn = Unit::TURN;
+    for (unit, phase) in [(Unit::ONE, 8.5e15), (Unit::ONE, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
         for index in 1..=100 {
             let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
             let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));

@@ -109,7 +109,7 @@ fn a_flip_at_the_start_is_found_there() {
 /// one it shows the other face.
 #[test]
 fn a_tie_is_passed_by_another_step() {
-    let quarter = dynamics::AngleUnit::Turns(dynamics::Unit::ONE).times(0.25);
+    let quarter = dynamics::Unit::TURN.times(0.25);
     let launch = Launch::new([0.5, 0.0, 0.0], TimeOfFlight::Given(0.8)).unwrap().with_tilt(quarter).unwrap();
     let toss = Toss { launch, ..toss() };
     let line = Line::new(&toss, Input::Rate(0));

@@ -108,7 +108,7 @@ fn huge_and_subnormal_rates_give_accurate_results() {
 /// from the rates as they are given.
 #[test]
 fn rates_in_degrees_are_taken_as_they_were_given() {
-    let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit().angle_unit();
+    let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit().size();
     let launch = Launch::in_unit([36_000.1, 200.3, 300.7], degrees, TimeOfFlight::Given(1e6)).unwrap();
     let toss = CoinToss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch };
     let motion = CoinMotion::new(&toss);

@@ -11,7 +11,7 @@
 //!
 //! so that an argument turns by ½ωz, and by what the distance ½ ∫|ω⊥| dt takes p or r around the origin. Now
 //! |ω| ≤ g |ω(0)|, with g = √2 or a little more for a plate as thin as rounding
-//! ([`Body::largest_growth_of_rate`](dynamics::Body::largest_growth_of_rate)), and where n is a principal axis |ω⊥|' ≤ |ωz| |ω⊥|, because no ratio
+//! ([`RigidBody::largest_growth_of_rate`](dynamics::RigidBody::largest_growth_of_rate)), and where n is a principal axis |ω⊥|' ≤ |ωz| |ω⊥|, because no ratio
 //! |I_i - I_j|/I_k is above 1 by more than rounding. In a step h with g |ω(0)| h ≤ 1 and ½ e |ω⊥| h ≤ 0.8 |r| the argument of r turns by less
 //! than ½ + asin 0.8 < π/2, so that the nearest branch is the continuous one; likewise for p. The spin about an upright
 //! normal, where r and ω⊥ are 0, needs no short steps. Of another tensor, the whole path ½ g |ω(0)| h is below 0.8 |r|.
@@ -65,11 +65,8 @@ impl RigidAngles {
     }
 
     /// The angles `time` (s) after launch, continuous from launch on. Times that ascend take one walk between them; a
-    /// time before the last one starts again from the launch.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`]; for bodies with I1 ≠ I2 also [`SolveError::StepLimit`] after some hundred thousand
-    /// radians, here and at every later time.
+    /// time before the last one starts again from the launch. Fails with [`SolveError::PhaseTooLarge`]; for bodies with
+    /// I1 ≠ I2 also [`SolveError::StepLimit`] after some hundred thousand radians, here and at every later time.
     pub fn at(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
         match &mut self.kind {
             Kind::Coin(motion) => motion.euler_angles(time),
@@ -276,17 +273,6 @@ mod tests {
         for time in [1e9, 1.5e9, 2e9] {
             assert_eq!(walk.to(time).unwrap_err().kind(), "step_limit");
             assert_eq!(walk.steps, MOST_STEPS);
-        }
-    }
-
-    #[test]
-    fn the_departure_from_the_vertical_does_not_depend_on_the_size_of_the_rate() {
-        let at_launch = |size: f64| {
-            let toss = toss([1.0, 2.0, 2.5], [3.0 * size, 4.0 * size, 0.0], 0.0);
-            RigidAngles::new(&toss).at(0.0).unwrap()
-        };
-        for size in [1e-200, 1e200] {
-            assert_near(at_launch(size), at_launch(1.0), 1e-15);
         }
     }
 

@@ -16,10 +16,8 @@ use crate::motion::COS_TILT_ERROR;
 /// Proves the outcome of a toss.
 ///
 /// Where the body does not move, exact arithmetic decides, and an outcome that is undecided is a tie. Else one is undecided, without a
-/// proof, if cos θ is 0 as far as 12 288 digits can tell.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
+/// proof, if cos θ is 0 as far as 12 288 digits can tell. Fails with [`SolveError::PhaseTooLarge`] for a phase above
+/// 2^53 rad.
 pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
     if let Some(toss) = toss.coin() {
         return certify_coin(&toss);
@@ -83,9 +81,6 @@ impl Question for Near0 {
 /// cos θ at landing and a bound of its error. cos θ has the sign of the proven outcome, and where an outcome is proven the
 /// bound is smaller than |cos θ|: near 0, where f64 would lose the leading digits, cos θ is rounded from more digits. A body
 /// of which the last number of digits does not give 58 bits of cos θ has 0.
-///
-/// # Errors
-/// As [`certify`]; [`SolveError::NotFinite`] for a body of whose cos θ the last number of digits tells nothing.
 pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
     // By reference: moved out, the toss would be copied twice.
     if let Some(toss) = &toss.coin() {
@@ -113,9 +108,6 @@ fn with_rounding(cos_tilt: f64) -> (f64, f64) {
 }
 
 /// The state at landing of a body that is not a coin, and what [`cos_tilt_with_error`] has of it, from one motion where that is possible.
-///
-/// # Errors
-/// As [`cos_tilt_with_error`].
 pub(crate) fn landed(toss: &Toss) -> Result<(State, (f64, f64)), SolveError> {
     let time = toss.launch.time_of_flight().into();
     turned_at_launch(toss, time)?;
@@ -129,10 +121,8 @@ pub(crate) fn landed(toss: &Toss) -> Result<(State, (f64, f64)), SolveError> {
 }
 
 impl ProvenCounts {
-    /// Proves and counts the outcomes of `tosses` of any bodies.
-    ///
-    /// # Errors
-    /// [`Error::Launch`] for the first toss that has no outcome.
+    /// Proves and counts the outcomes of `tosses` of any bodies. Fails with [`Error::Launch`] for the first toss that
+    /// has no outcome.
     pub fn of(tosses: impl IntoIterator<Item = Toss>) -> Result<Self, Error> {
         let mut counts = Self::default();
         for (index, toss) in tosses.into_iter().enumerate() {
@@ -144,7 +134,7 @@ impl ProvenCounts {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{AngleUnit, Attitude, Body, Launch, TimeOfFlight};
+    use dynamics::{Attitude, Body, Launch, TimeOfFlight};
     use numerics::big::exactly;
     use numerics::{Ball, DoubleDouble, WideBall};
 
@@ -189,27 +179,11 @@ mod tests {
         assert!(decided > 1990 && largest > 1e-3, "{decided} {largest:e}");
     }
 
-    /// Rates in degrees are proven in many digits, in which the axes of a tensor have to be found to nearly as many.
-    #[test]
-    fn tensors_at_rates_in_degrees_are_decided_wherever_cos_tilt_is_clear() {
-        for index in 0..200 {
-            let part = |square: f64| (f64::from(index + 1) * square.sqrt()).fract() - 0.5;
-            let [xy, xz, yz] = [part(2.0), part(3.0), part(5.0)].map(|part| 0.6 * part);
-            let body = Body::from_inertia([2.0, 2.2, 2.4, xy, xz, yz]).unwrap();
-            let rate = [part(7.0), part(11.0), part(13.0)].map(|part| 3e3 * part);
-            let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
-            let launch = Launch::in_unit(rate, degree, TimeOfFlight::Given(0.7)).unwrap();
-            let toss = Toss { body, launch };
-            let cos_tilt = ExactMotion::new(&toss).cos_tilt(0.7).unwrap();
-            assert_eq!(certify(&toss).unwrap().outcome(), Outcome::of(cos_tilt, 1e-12), "{toss:?}: {cos_tilt}");
-        }
-    }
-
     /// The time has a division and the factor of the unit, the vertical a division.
     #[test]
     fn balls_of_many_digits_contain_the_numbers_of_more() {
         for toss in tosses().take(100) {
-            let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
+            let degree = numerics::Unit::DEGREE;
             let thrown = TimeOfFlight::Ballistic { speed: 1.0 + toss.launch.flight_time(), gravity: 9.81 };
             let launch = Launch::in_unit([1.0, 2.0, 3.0], degree, thrown).unwrap();
             let toss = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };
@@ -219,19 +193,6 @@ mod tests {
                 assert!(off <= ball.error(), "{toss:?}: {off:e}, radius {:e}", ball.error());
             }
         }
-    }
-
-    #[test]
-    fn counts_are_of_each_toss_and_the_first_without_an_outcome_is_named() {
-        let few: Vec<Toss> = tosses().take(40).collect();
-        let counts = ProvenCounts::of(few.iter().copied()).unwrap();
-        let heads = few.iter().filter(|toss| certify(toss).unwrap().outcome() == Outcome::Heads).count() as u64;
-        assert!((5..35).contains(&heads));
-        assert_eq!((counts.heads, counts.tails, counts.total()), (heads, 40 - heads, 40));
-        let turning = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
-        let endless = Toss { launch: turning, ..few[0] };
-        let failed = ProvenCounts::of([few[0], few[1], endless, few[2], endless]).unwrap_err();
-        assert!(matches!(failed, Error::Launch { index: 2, .. }), "{failed}");
     }
 
     /// Both radii and the midpoint's second part count, and so does the rounding of their sum.
@@ -299,17 +260,6 @@ mod tests {
             assert!(zeros.iter().all(|part| part.error() == 0.0) && !parts.is_empty());
             assert!(parts.iter().all(|part| (1.0..1.001).contains(&(part.error() * 2f64.powi(240)))));
         }
-    }
-
-    /// Else the radii, which are of a vertical of length 1, would be too small or too large.
-    #[test]
-    fn the_vertical_of_a_quaternion_of_any_norm_has_length_1() {
-        let attitude = Attitude::from_components([3e9, 1e9, -2e9, 0.5e9]).unwrap();
-        let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
-        let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
-        let (_, vertical) = in_digits(&toss.launch, 256);
-        let squares: f64 = vertical.iter().map(|part| part.midpoint().to_f64().value().powi(2)).sum();
-        assert!((squares - 1.0).abs() < 1e-12, "{squares}");
     }
 
     /// Of components that differ by any factor, the outcome is that of the motion without the smallest where that one does

@@ -251,7 +251,6 @@ impl<N: Elementary> Curve<N> {
         if doublings > digits {
             return None;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small whole numbers")]
         let (doublings, terms, fall) = (doublings as i32, (digits / fall).ceil() as usize + 2, -(fall as i32));
         let (mut point, mut n) = self.begun(&tau.times_power_of_two(-doublings), terms, fall);
         for left in (0..doublings).rev() {
@@ -393,7 +392,6 @@ impl<N: Elementary> Curve<N> {
 }
 
 /// A small whole number.
-#[expect(clippy::cast_precision_loss, reason = "numbers of terms")]
 fn count(value: usize) -> f64 {
     value as f64
 }

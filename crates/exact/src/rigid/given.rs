@@ -1,7 +1,7 @@
 //! The toss of a body in numbers of one kind, exact or balls that contain what was given, and its turn until the landing.
 
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{AngleUnit, Toss};
+use dynamics::{Toss, Unit};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Ball, DoubleDouble, Elementary, WideBall};
 
@@ -62,7 +62,7 @@ impl Given<Ball<DoubleDouble>> {
         let zero = Ball::new(DoubleDouble::ZERO, 0.0);
         let given = [0, 1, 2].map(|axis: usize| zero.like(rate[axis]).times_power_of_two(-exponent));
         let rate = match unit {
-            AngleUnit::RADIAN => given,
+            Unit::ONE => given,
             unit => given.map(|part| part * zero.like_big(&unit.in_digits(160))),
         };
         Self {

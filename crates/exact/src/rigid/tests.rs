@@ -51,32 +51,19 @@ fn rates() -> Vec<[f64; 3]> {
     rates
 }
 
+/// A flight in two legs is the flight in one, whatever regime's formula each of them uses. Equal rates about the first and
+/// the last axis of the second body are on its separatrix.
 #[test]
-fn the_attitude_at_launch_is_that_of_the_launch_and_so_are_the_rates() {
+fn a_flight_in_legs_is_the_flight_in_one() {
     for moments in [
         [1.0, 2.0, 2.5],
         [1.0, 2.5, 3.0],
         [2.5, 1.0, 2.0],
         [2.0, 2.5, 1.0],
         [1.0, 2.0, 2.0],
-        [0.0, 1.0, 1.0],
+        [1.0, 1.0, 1.0],
         [0.1, 0.7, 0.8],
     ] {
-        for rate in rates() {
-            let state = ExactMotion::new(&toss(moments, rate, 1.0)).state(0.0).unwrap();
-            assert!(state.attitude.angle_to(&Attitude::IDENTITY) < 1e-15, "{moments:?} {rate:?}: {state:?}");
-            assert!((state.rate - Vector3::from(rate)).amax() < 3e-16, "{moments:?} {rate:?}: {state:?}");
-        }
-    }
-}
-
-/// A flight in two legs is the flight in one, whatever regime's formula each of them uses. Equal rates about the first and
-/// the last axis of the second body are on its separatrix.
-#[test]
-fn a_flight_in_legs_is_the_flight_in_one() {
-    for moments in
-        [[1.0, 2.0, 2.5], [1.0, 2.5, 3.0], [2.5, 1.0, 2.0], [2.0, 2.5, 1.0], [1.0, 2.0, 2.0], [1.0, 1.0, 1.0]]
-    {
         for rate in rates() {
             let whole = ExactMotion::new(&toss(moments, rate, 1.0));
             let middle = whole.state(2.0).unwrap();
@@ -164,52 +151,6 @@ fn rates_are_scaled_by_the_largest_also_where_they_are_far_apart() {
     }
 }
 
-/// A body by its tensor moves as by its moments, seen in other axes.
-#[test]
-fn a_tensor_gives_the_motion_of_its_moments_also_next_to_the_separatrix() {
-    // A turn by 3-4-5 about z: the tensor's elements are exact.
-    for (moments, rate) in [
-        ([25.0, 50.0, 56.25], [0.5, -1.25, 2.0]),
-        ([25.0, 50.0, 56.25], [0.75, 1.0, 1.0]),
-        ([25.0, 50.0, 56.25], [0.750_000_007_5, 1.0, 1.0]),
-    ] {
-        let [a, b, c] = moments;
-        let tensor = [
-            [(9.0 * a + 16.0 * b) / 25.0, 12.0 * (a - b) / 25.0, 0.0],
-            [12.0 * (a - b) / 25.0, (16.0 * a + 9.0 * b) / 25.0, 0.0],
-            [0.0, 0.0, c],
-        ];
-        let turned = |[x, y, z]: [f64; 3]| Vector3::new(0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z);
-        let by_tensor = |rate: Vector3<f64>| {
-            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
-            ExactMotion::new(&Toss { body: Body::from_tensor(tensor).unwrap(), launch })
-        };
-        let (one, two) = (ExactMotion::new(&toss(moments, rate, 1.0)), by_tensor(turned(rate)));
-        let (one, two) = (one.state(9.0).unwrap(), two.state(9.0).unwrap());
-        // The turned rate is rounded, which is all that differs.
-        assert!((turned(one.rate.into()) - two.rate).amax() < 1e-12, "{one:?} {two:?}");
-        assert!((one.attitude.cos_tilt() - two.attitude.cos_tilt()).abs() < 1e-12, "{one:?} {two:?}");
-    }
-}
-
-#[test]
-fn outcomes_are_proven_and_undecided_for_ties_alone() {
-    let mut counts = [0; 3];
-    for moments in [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [0.1, 0.7, 0.8], [1.0, 2.0, 2.0]] {
-        for rate in rates() {
-            let toss = toss(moments, rate, 7.5);
-            let (certificate, cos_tilt) = (certify(&toss).unwrap(), ExactMotion::new(&toss).cos_tilt(7.5).unwrap());
-            assert_eq!(certificate.outcome(), Outcome::of(cos_tilt, 0.0), "{moments:?} {rate:?}: {cos_tilt:e}");
-            counts[match certificate.outcome() {
-                Outcome::Heads => 0,
-                Outcome::Tails => 1,
-                Outcome::Undecided => 2,
-            }] += 1;
-        }
-    }
-    assert!(counts[0] > 50 && counts[1] > 50 && counts[2] == 0, "{counts:?}");
-}
-
 /// Launch times a few ulp beside an edge, where f64 can't tell.
 #[test]
 fn outcomes_next_to_an_edge_change_between_neighbouring_numbers_and_never_back() {
@@ -244,7 +185,6 @@ fn the_outcome_of_a_needle_is_proven_after_a_long_flight() {
     let motion = ExactMotion::new(&toss);
     let cos_tilt = motion.cos_tilt(623_945_565.369_074_3).unwrap();
     let certificate = certify(&toss).unwrap();
-    println!("{cos_tilt:e} {certificate:?} {:?} {:e}", motion.regime(), motion.phase(623_945_565.369_074_3).unwrap());
     assert_eq!(certificate.outcome(), Outcome::of(cos_tilt, 0.0));
     assert_ne!(certificate.outcome(), Outcome::Undecided);
 }

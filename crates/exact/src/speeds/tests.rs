@@ -120,7 +120,7 @@ fn the_ends_of_a_range_that_lands_heads_are_those_given() {
 /// At the speed 0 the body is on edge, which is not a flip and does not end the search.
 #[test]
 fn intervals_may_begin_on_edge() {
-    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let quarter = numerics::Unit::TURN.times(0.25);
     let upright = toss([1.0, 2.0, 3.0], [1.0, 5.0, 0.5], TimeOfFlight::thrown(9.0, 9.81, None), 0.0);
     let launch = upright.launch.with_tilt(quarter).unwrap();
     let toss = Toss { launch, ..upright };
@@ -136,7 +136,7 @@ fn intervals_may_begin_on_edge() {
 /// A body that spins about its normal on edge stays there, so that the search ends near where it began.
 #[test]
 fn a_search_along_an_edge_says_how_far_it_came() {
-    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let quarter = numerics::Unit::TURN.times(0.25);
     let upright = toss([1.0, 2.0, 2.5], [0.0, 0.0, 5.0], TimeOfFlight::thrown(3.0, 9.81, None), 0.0);
     let toss = Toss { launch: upright.launch.with_tilt(quarter).unwrap(), ..upright };
     let Err(SolveError::StepLimit { time, .. }) = speeds_of_heads(&toss, 1.0) else { panic!("it has no outcome") };

@@ -1,19 +1,18 @@
-//! Outcomes near an edge, and counts of outcomes.
+//! Outcomes near an edge.
 
 use std::f64::consts::TAU;
 
-use dynamics::{Coin, Outcome};
+use dynamics::Outcome;
 use exact::{Batch, CoinMotion, certify};
-use numerics::lanes::SimdLevel;
 
-use super::columns::{Columns, attitudes, coins, mixed};
+use super::columns::{Columns, attitudes, coins};
 
 /// The phases at landing approach one that lands on edge, down to the last digit of the speeds, after few turns and
 /// after many.
 #[test]
 fn near_an_edge_the_filter_decides_rightly_or_not_at_all() {
     for (coin, attitude) in coins().into_iter().flat_map(|coin| attitudes().map(|attitude| (coin, attitude))) {
-        for (turns, fewest_left) in [(0.0, 300), (3.0, 300), (1e5, 400), (1e8, 900)] {
+        for turns in [0.0, 3.0, 1e5, 1e8] {
             let mut columns = Columns::new(4000, 60.0, 5.0);
             for index in 0..4000 {
                 let toss = columns.tosses(coin, attitude).toss(index).unwrap();
@@ -27,31 +26,10 @@ fn near_an_edge_the_filter_decides_rightly_or_not_at_all() {
                 }
             }
             let tosses = columns.tosses(coin, attitude);
-            let (mut outcomes, mut rest) = (vec![Outcome::Undecided; tosses.len()], 0);
+            let mut outcomes = vec![Outcome::Undecided; tosses.len()];
             Batch::new(tosses).outcomes(&mut outcomes).unwrap();
-            Batch::new(tosses).count_and(|_| rest += 1).unwrap();
             let certified = |index| certify(&tosses.toss(index).unwrap()).unwrap().outcome();
             assert!((0..tosses.len()).all(|index| outcomes[index] == certified(index)), "{turns} turns");
-            assert!((fewest_left..3900).contains(&rest), "the filter left {rest} after {turns} turns");
-        }
-    }
-}
-
-#[test]
-fn counts_match_the_outcomes() {
-    let columns = mixed(2000);
-    for attitude in attitudes() {
-        let tosses = columns.tosses(Coin::PAPER, attitude);
-        let mut outcomes = vec![Outcome::Undecided; tosses.len()];
-        Batch::new(tosses).outcomes(&mut outcomes).unwrap();
-        let all = |of: Outcome| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
-        for level in SimdLevel::all() {
-            let mut left = 0;
-            let counts = Batch::new(tosses).on(level).count_and(|_| left += 1).unwrap();
-            assert_eq!((counts.heads, counts.tails), (all(Outcome::Heads), all(Outcome::Tails)));
-            assert_eq!((counts.undecided, counts.total()), (all(Outcome::Undecided), 2000));
-            assert!((1..50).contains(&left), "the filter left {left}");
-            assert_eq!(Batch::new(tosses).on(level).count(), Ok(counts));
         }
     }
 }

@@ -4,7 +4,7 @@
 mod reference;
 mod tosses;
 
-use dynamics::{Coin, CoinToss, Launch, TimeOfFlight, Vector3};
+use dynamics::{CoinToss, TimeOfFlight};
 use exact::{CoinMotion, Margin, margin};
 
 use reference::{Input, big, cos_tilt};
@@ -139,58 +139,4 @@ fn check_all(tosses: impl Iterator<Item = CoinToss>, scan: &Scan) -> [u32; 2] {
 fn no_flip_is_nearer_than_the_margin() {
     let [flips, none] = check_all(random_tosses().take(100), &Scan { step: 0.3, least: 6.0, most: 150.0 });
     assert!(flips > 500 && none > 40, "{flips} {none}");
-}
-
-/// Where the margin of a rate jumps as the speed grows, cos θ touches 0 at the nearer value: it does with one speed, and does
-/// not with the next f64.
-#[test]
-fn on_both_sides_of_a_touch_no_flip_is_nearer() {
-    let thrown = |speed| {
-        let time_of_flight = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
-        let launch = Launch::new(Vector3::new(6.0, 5.0, 9.0), time_of_flight).and_then(|launch| launch.with_tilt(0.5));
-        CoinToss { coin: Coin::from_moments(1.0, 1.3).expect("a valid coin"), launch: launch.expect("a valid launch") }
-    };
-    let of_rate = |speed, axis: usize| margin(&thrown(speed).into()).expect("small phases").rate[axis].unwrap_or(1e300);
-    let jumps = |speeds: [f64; 2], axis| {
-        let [from, to] = speeds.map(|speed| of_rate(speed, axis));
-        from.signum() == to.signum() && (to - from).abs() > 0.1 * from.abs().min(to.abs())
-    };
-    let mut touches = 0;
-    for (axis, step) in (0..3).flat_map(|axis| (0..400).map(move |step| (axis, step))) {
-        let mut speeds = [0.0, 0.01].map(|more| 2.0 + 0.01 * f64::from(step) + more);
-        while jumps(speeds, axis) && speeds[0].next_up() < speeds[1] {
-            let middle = speeds[0] + 0.5 * (speeds[1] - speeds[0]);
-            let half = [speeds[0], middle];
-            speeds = if jumps(half, axis) { half } else { [middle, speeds[1]] };
-        }
-        if speeds[0].next_up() == speeds[1] && jumps(speeds, axis) {
-            touches += 1;
-            for toss in speeds.map(thrown) {
-                let found = margin(&toss.into()).expect("small phases");
-                let scan = Scan { step: 0.1, least: 20.0, most: 300.0 };
-                check(&toss, Input::Rate(axis), &found, &scan).unwrap_or_else(|wrong| panic!("{wrong}"));
-            }
-        }
-    }
-    assert!(touches >= 2, "{touches}");
-}
-
-/// Takes minutes.
-#[test]
-#[ignore = "takes minutes"]
-fn no_flip_is_nearer_than_the_margin_in_a_dense_scan() {
-    const THREADS: usize = 4;
-    const SCAN: Scan = Scan { step: 0.1, least: 30.0, most: 1000.0 };
-    let part = move |thread| {
-        let mut tosses = random_tosses().skip(100).take(2000).skip(thread).step_by(THREADS);
-        for done in (0..2000 / THREADS).step_by(50) {
-            let counts = check_all(tosses.by_ref().take(50), &SCAN);
-            println!("after {done} of part {thread}: 50 more, {counts:?}");
-        }
-    };
-    std::thread::scope(|scope| {
-        for thread in 0..THREADS {
-            scope.spawn(move || part(thread));
-        }
-    });
 }

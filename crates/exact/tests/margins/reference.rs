@@ -33,7 +33,7 @@ pub(crate) fn cos_tilt(toss: &CoinToss, input: Input, change: &Big) -> Big {
     let turn = [x, y, z * k].map(|part| part * &half_time);
     let mut attitude = match toss.launch.attitude().tilt() {
         Some(tilt) => {
-            let (sin, cos) = (big(tilt.radians()) / big(2.0)).sin_cos();
+            let (sin, cos) = (big(tilt.to_f64()) / big(2.0)).sin_cos();
             [cos, sin, big(0.0), big(0.0)]
         }
         None => toss.launch.attitude().given_components().map(big),

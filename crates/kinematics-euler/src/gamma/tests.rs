@@ -11,28 +11,6 @@ fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
     Toss::new(Coin::from_moments(1.0, k).unwrap(), launch)
 }
 
-/// Compares (10) and (11) with central differences of the exact γ, on flights where the vertical frame is regular.
-#[test]
-fn the_acceleration_is_that_of_the_exact_motion() {
-    for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)] {
-        let toss = toss(k, rate, tilt);
-        let motion = CoinMotion::new(&toss.coin().unwrap());
-        let h = 1e-3;
-        let gamma = |time: f64| motion.euler_angles(time).unwrap().gamma;
-        for step in 1..10 {
-            let time = 0.1 * f64::from(step);
-            let [before, now, after] = [time - h, time, time + h].map(gamma);
-            let velocity = (after - before) / (2.0 * h);
-            let state = motion.state(time).unwrap();
-            let system = GammaSystem::new(k, rate[2], 1.0);
-            let y = SVector::from([now, velocity, 0.0, state.rate.x, state.rate.y]);
-            let found = system.gamma_acceleration(&system.terms(&y), velocity);
-            let expected = (after - 2.0 * now + before) / (h * h);
-            assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
-        }
-    }
-}
-
 #[test]
 fn from_horizontal_it_starts_on_the_regular_solution() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
@@ -202,12 +180,6 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
         assert_eq!(beta(0.0, -sense).abs(), PI);
         assert_eq!([beta(0.0, 0.0), beta(-0.0, 0.0), beta(0.0, -0.0), beta(-0.0, -0.0)], [0.0; 4]);
     }
-    let stepping = Stepping::adaptive(Scheme::DOP853, 1e-9).unwrap();
-    for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
-        let toss = toss(1.0, rest, PI);
-        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).land(&toss).unwrap();
-        assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
-    }
 }
 
 /// Without a rate nothing defines D and u, and so they do not tell the attitude.
@@ -215,9 +187,12 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
 fn a_coin_at_rest_stays_as_it_was_thrown() {
     for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
         for tilt in [0.0, 1e-17, 1e-9, 1.0, 2.0, -2.0, std::f64::consts::PI, 3.2] {
-            let landing = GammaSolver::new(Stepping::DEFAULT, formulation).land(&toss(0.5, [0.0; 3], tilt)).unwrap();
-            assert!((landing.cos_tilt - tilt.cos()).abs() < 1e-15, "{tilt}: {landing:?}");
-            assert!(landing.state.attitude.angle_to(&toss(0.5, [0.0; 3], tilt).launch.attitude()) < 1e-14, "{tilt}");
+            for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
+                let toss = toss(0.5, rest, tilt);
+                let landing = GammaSolver::new(Stepping::DEFAULT, formulation).land(&toss).unwrap();
+                assert!((landing.cos_tilt - tilt.cos()).abs() < 1e-15, "{tilt}: {landing:?}");
+                assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-14, "{rest:?} {tilt}");
+            }
         }
     }
 }

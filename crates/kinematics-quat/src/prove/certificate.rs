@@ -6,7 +6,7 @@ use numerics::UNIT_ROUNDOFF;
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
 ///
-/// Nothing but [`QuaternionSolver::certify`](crate::QuaternionSolver::certify) and its like make one:
+/// Nothing but [`QuaternionSolver`](crate::QuaternionSolver) makes one:
 ///
 /// ```compile_fail,E0451
 /// fn forged(one: kinematics_quat::IntegratedCertificate) -> kinematics_quat::IntegratedCertificate {

@@ -144,8 +144,8 @@ impl<S: Simd> Terms<S> {
         for n in 0..self.order {
             let (products, place) = (eta * convolution(&self.size, &self.size_of_r, 0, n), over(eta, n + 1));
             let of_c = self.size[n] * c.abs() * constant(3.0);
-            lost[n] = products.mul_add(constant(3.5 * number(n) + 6.5), of_c) * place;
-            let shares = products.mul_add(constant(0.5 * number(n) + 6.5), of_c) * place;
+            lost[n] = products.mul_add(constant(3.5 * n as f64 + 6.5), of_c) * place;
+            let shares = products.mul_add(constant(0.5 * n as f64 + 6.5), of_c) * place;
             self.rounding = self.rounding + shares;
             let of_rounding = convolution(&lost, &of_nu, 0, n) * constant(2.0 * UNIT_ROUNDOFF);
             // √2, because the sum of two sizes is no more than that times the size of the pair.
@@ -161,7 +161,7 @@ impl<S: Simd> Terms<S> {
     fn turn(&self, spread: Real<S>) -> Real<S> {
         let (constant, mut sum) = (|value: f64| spread.constant(value), self.rounding + spread.constant(16.0));
         for (k, size) in self.size[..=self.order].iter().enumerate() {
-            sum = size.mul_add(constant(number(k + 1)), sum);
+            sum = size.mul_add(constant((k + 1) as f64), sum);
         }
         sum.mul_add(constant(UNIT_ROUNDOFF), self.dropped(spread))
     }
@@ -212,7 +212,7 @@ impl<S: Simd> Terms<S> {
         for k in 0..=p {
             all = all + self.size_of_r[k];
             if k >= from {
-                sum = self.size_of_r[k].mul_add(constant(number(k + 5 - from)), sum);
+                sum = self.size_of_r[k].mul_add(constant((k + 5 - from) as f64), sum);
             }
         }
         let rest = if compensates { all * constant(1e5 * UNIT_ROUNDOFF) } else { constant(3.0) };
@@ -239,15 +239,7 @@ fn convolution<S: Simd>(a: &Numbers<S>, b: &Numbers<S>, first: usize, n: usize) 
 /// 1/n.
 #[inline(always)]
 fn over<S: Simd>(like: Real<S>, n: usize) -> Real<S> {
-    like.constant(1.0 / number(n))
-}
-
-/// n, at most twice an order.
-#[inline(always)]
-fn number(n: usize) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "an order")]
-    let number = n as f64;
-    number
+    like.constant(1.0 / n as f64)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! steps have the same turn, whose series is computed once, in balls. The attitude and the direction of η are stepped on
 //! as the midpoints of balls, because balls would grow with each step; what that leaves out is added up.
 
+use dynamics::attitude::vertical_in_body;
 use dynamics::integrate::STEP_LIMIT;
 use dynamics::{CoinToss, Outcome, SolveError};
 use numerics::big::exactly;
@@ -30,17 +31,11 @@ pub(crate) struct Landing {
 }
 
 /// Flies `toss` in double-double.
-///
-/// # Errors
-/// As [`fly`].
 pub(crate) fn in_double_double(toss: &CoinToss) -> Result<Landing, SolveError> {
     fly(toss, &Ball::new(DoubleDouble::ZERO, 0.0))
 }
 
 /// Flies `toss` in so many binary digits.
-///
-/// # Errors
-/// As [`fly`].
 pub(crate) fn in_digits(toss: &CoinToss, digits: usize) -> Result<Landing, SolveError> {
     fly(toss, &Ball::new(Big::ZERO.with_precision(digits).value(), 0.0))
 }
@@ -48,10 +43,7 @@ pub(crate) fn in_digits(toss: &CoinToss, digits: usize) -> Result<Landing, Solve
 /// A complex number.
 type Pair<T> = [T; 2];
 
-/// Flies `toss` in numbers like `like`.
-///
-/// # Errors
-/// [`SolveError::StepLimit`] for more than a million steps.
+/// Flies `toss` in numbers like `like`, in at most a million steps.
 fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveError> {
     let given = Given::new(toss, like);
     let steps = steps(given.eta.to_f64() + given.half_z.to_f64().abs() + given.q.to_f64().abs())?;
@@ -61,7 +53,8 @@ fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveE
     let series = Series::new(&eta, &half_z, &q, order);
     let flown = Flown::new(&series, &given.direction, steps);
     let turn = flown.turn.map(|part| Ball::new(part, 0.0));
-    let cos_tilt = cos_tilt(&given.vertical, &turn).widened(2.0 * flown.bound);
+    let (height, norm) = height(&given.vertical, &turn);
+    let cos_tilt = (height / norm).widened(2.0 * flown.bound);
     let rounded = cos_tilt.midpoint().to_f64();
     let outcome = match (cos_tilt.has_sign(), rounded > 0.0) {
         (false, _) => Outcome::Undecided,
@@ -79,7 +72,6 @@ fn steps(turns: f64) -> Result<u32, SolveError> {
     if steps > f64::from(STEP_LIMIT) {
         return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number up to the limit")]
     Ok(steps as u32)
 }
 
@@ -89,7 +81,6 @@ fn order(digits: i32) -> usize {
     let mut order = 0;
     while left > 0.0 {
         order += 1;
-        #[expect(clippy::cast_precision_loss, reason = "an order")]
         let factor = (order + 1) as f64;
         left -= factor.log2() * (1.0 - 1e-12);
     }
@@ -153,7 +144,6 @@ impl<N: Elementary> Series<N> {
         let (one, zero) = (q.like(1.0), q.like(0.0));
         let (mut u, mut w, mut r) = (vec![one.clone()], vec![zero.clone()], vec![one]);
         for k in 0..order {
-            #[expect(clippy::cast_precision_loss, reason = "an order")]
             let place = q.like((k + 1) as f64);
             let products = |a: &[Ball<N>]| {
                 let terms = a.iter().zip(r.iter().rev());
@@ -230,20 +220,17 @@ fn turned<N: Elementary>([w, x, y, z]: &[N; 4], [r_w, r_z]: &Pair<N>, [r_x, r_y]
     ]
 }
 
-/// The height of the normal after the turn P of any norm, with the `vertical` seen before it.
-fn cos_tilt<N: Elementary>([a, b, c]: &[N; 3], [w, x, y, z]: &[N; 4]) -> N {
-    let times = |a: &N, b: &N| a.clone() * b.clone();
-    let twice = |half: N| half.clone() + half;
-    let (upright, inverted) = (times(w, w) + times(z, z), times(x, x) + times(y, y));
-    let across = [times(x, z) + times(w, y), times(y, z) - times(w, x)].map(twice);
-    let [along_x, along_y] = across;
-    let sum = times(a, &along_x) + times(b, &along_y) + times(c, &(upright.clone() - inverted.clone()));
-    sum / (upright + inverted)
+/// The height of the normal after the turn P, times |P|², with the `vertical` seen before it; and |P|².
+pub(super) fn height<N: Elementary>(vertical: &[N; 3], [w, x, y, z]: &[N; 4]) -> (N, N) {
+    // The normal is the third axis of the frame that is turned back.
+    let ([x, y, z], square) = vertical_in_body([w.clone(), -x.clone(), -y.clone(), -z.clone()]);
+    let [a, b, c] = vertical.clone();
+    (a * x + b * y + c * z, square)
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{AngleUnit, Coin, Launch, TimeOfFlight, Unit};
+    use dynamics::{Coin, Launch, TimeOfFlight, Unit};
 
     use super::*;
 
@@ -299,7 +286,7 @@ mod tests {
     fn balls_of_a_toss_and_of_its_step_hold_what_more_digits_find() {
         let (double, more) =
             (Ball::new(DoubleDouble::ZERO, 0.0), Ball::new(Big::ZERO.with_precision(384).value(), 0.0));
-        let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let degree = Unit::DEGREE;
         let time = TimeOfFlight::Ballistic { speed: 3.3, gravity: 9.81 };
         let launch = Launch::in_unit([100.0, 30.0, 77.0], degree, time).unwrap().with_tilt(0.3).unwrap();
         let toss = CoinToss { coin: Coin::from_moments(3.0, 1.0).unwrap(), launch };
@@ -308,7 +295,7 @@ mod tests {
         let ([a, b, c], [d, e, f]) = (turns.map(|turn| double.like(turn)), turns.map(|turn| more.like(turn)));
         let (series, exact) = (Series::new(&a, &b, &c, order(106)), Series::new(&d, &e, &f, order(384)));
         assert_encloses(of_series(&series), of_series(&exact), 88);
-        assert_eq!(cos_tilt(&[0.6, 0.0, 0.8], &[2.0, 0.0, 0.0, 0.0]), 0.8, "any norm");
+        assert_eq!(height(&[0.6, 0.0, 0.8], &[2.0, 0.0, 0.0, 0.0]), (3.2, 4.0));
         // Without a turn there is nothing but the remainder.
         let zero = double.like(0.0);
         let still = Series::new(&zero, &zero, &zero, order(106));

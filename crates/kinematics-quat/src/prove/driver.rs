@@ -13,7 +13,7 @@ use numerics::lanes::SimdLevel;
 use crate::landed::Landed;
 use crate::prove::certificate::IntegratedCertificate;
 use crate::prove::coin_step::bounds;
-use crate::prove::digits::{self, in_digits, in_double_double};
+use crate::prove::digits::{self, height, in_digits, in_double_double};
 use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
 use crate::prove::rigid_lanes::{Bound, Enclosed};
 use crate::solver::QuaternionSolver;
@@ -119,44 +119,24 @@ impl Bounded for Enclosed {
 
 impl QuaternionSolver {
     /// Proves the outcome of `toss` by integration, first with the solver's own tolerance, then with the finest one, then
-    /// with more digits; a body with three different moments is not flown in more digits.
-    ///
-    /// # Errors
+    /// with more digits; a body with three different moments is not flown in more digits. Fails with
     /// [`SolveError::NotProven`] for a scheme other than [`TAYLOR`](crate::TAYLOR), whose steps have no bound, for a
     /// formulation that proves nothing, and for a flight whose errors have no bound; else as
     /// [`Solver::land`](dynamics::Solver::land).
     pub fn certify(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        self.certify_all(std::slice::from_ref(toss), SimdLevel::for_one_lane()).remove(0)
+        let found = self.proven(std::slice::from_ref(toss), SimdLevel::for_one_lane(), &Stage::ALL[1..]).remove(0)?;
+        (found.error_bound < 2.0).then_some(found).ok_or_else(|| Self::not_proven(NO_BOUND))
     }
 
-    /// [`QuaternionSolver::certify`] of each of `tosses`, in their order and with the same bits. As many flights are
-    /// computed at once as a register at the SIMD `level` has lanes.
-    pub fn certify_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        let bounded = |found: IntegratedCertificate| {
-            let refused = || SolveError::NotProven { solver: Self::NAME.to_owned(), why: NO_BOUND };
-            (found.error_bound < 2.0).then_some(found).ok_or_else(refused)
-        };
-        let found = self.proven(tosses, level, &Stage::ALL[1..]);
-        found.into_iter().map(|found| found.and_then(bounded)).collect()
-    }
-
-    /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Coins are first flown with a coarse
-    /// tolerance, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings without
-    /// a proof. A flight without a bound is undecided.
-    pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
-        self.decide(tosses, level).into_iter().map(|found| found.map(|found| found.outcome)).collect()
-    }
-
-    /// The certificates of the flights that decide [`QuaternionSolver::prove_outcomes`].
+    /// The certificates of the flights that decide the outcomes of `tosses`, in their order and with the same bits at every
+    /// SIMD `level`. Coins are first flown with a coarse tolerance, whose bounds decide nearly all; the others are flown
+    /// again. It takes about as long as the landings without a proof. A flight without a bound is undecided.
     pub(crate) fn decide(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Certified> {
         self.proven(tosses, level, &Stage::ALL)
     }
 
     /// The landing of `toss` with the bounds of its error at the solver's own tolerance, whether or not they decide the
     /// outcome. Without a bound it is 2.
-    ///
-    /// # Errors
-    /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
         let stage = [Stage::F64];
         self.proven(std::slice::from_ref(toss), SimdLevel::for_one_lane(), &stage).remove(0)
@@ -164,11 +144,14 @@ impl QuaternionSolver {
 
     /// The plans of a solver that proves, which is one by Taylor series with guards.
     pub(crate) fn require_proofs(&self) -> Result<&Taylor, SolveError> {
-        let refused = |why| SolveError::NotProven { solver: Self::NAME.to_owned(), why };
         if !self.projects {
-            return Err(refused("without a division by the norm, its cos θ is not that of an attitude"));
+            return Err(Self::not_proven("without a division by the norm, its cos θ is not that of an attitude"));
         }
-        self.taylor.as_ref().ok_or_else(|| refused("only the scheme taylor bounds the error of its steps"))
+        self.taylor.as_ref().ok_or_else(|| Self::not_proven("only the scheme taylor bounds the error of its steps"))
+    }
+
+    fn not_proven(why: &'static str) -> SolveError {
+        SolveError::NotProven { solver: Self::NAME.to_owned(), why }
     }
 
     /// What flights at these `stages` state of `tosses`, in their order. Each stage flies what the one before it leaves
@@ -248,17 +231,15 @@ fn by_digits(toss: &CoinToss, landing: digits::Landing, stage: Stage) -> Certifi
 }
 
 /// cos θ after the turn P of any norm.
-fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
-    let ([a, b, c], size) = launched.vertical();
-    let (upright, inverted) = (w * w + z * z, x * x + y * y);
-    let across = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x)];
-    let cosine = (a * across[0] + b * across[1] + c * (upright - inverted)) / ((upright + inverted) * size);
-    cosine.clamp(-1.0, 1.0)
+fn cos_tilt(launched: Attitude, turn: [f64; 4]) -> f64 {
+    let (vertical, size) = launched.vertical();
+    let (height, norm) = height(&vertical, &turn);
+    (height / (norm * size)).clamp(-1.0, 1.0)
 }
 
 /// Roundings of the attitude at landing. Half of a tilt in degrees is rounded to radians.
 fn of_attitude(launched: Attitude) -> f64 {
-    let tilt = launched.tilt().map_or(0.0, |angle| angle.radians().abs());
+    let tilt = launched.tilt().map_or(0.0, |angle| angle.to_f64().abs());
     OF_ATTITUDE + UNIT_ROUNDOFF * tilt
 }
 

@@ -49,7 +49,6 @@ pub(crate) fn attitude_bound(toss: &CoinToss, flight: &Flight, record: &Record, 
     let modulus = modulus(flight);
     let has_rate = modulus.hi() > NO_RATE;
     let eta = if has_rate { step.eta } else { 0.0 };
-    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
     let steps = record.steps as f64;
     let of_steps = steps * (step.turn + step.rates + eta);
     let of_launch = Launched::new(toss, flight);

@@ -5,7 +5,7 @@
 mod errors;
 
 use dynamics::body::PrincipalAxes;
-use dynamics::{AngleUnit, Flight, ModelBody, Toss};
+use dynamics::{Flight, ModelBody, Toss, Unit};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 pub(super) use self::errors::{Errors, Step};
@@ -195,7 +195,7 @@ fn ideal_rates(toss: &Toss, axes: &[[Ball<DoubleDouble>; 3]; 3], flight: &Flight
     let (given, unit) = toss.launch.given_rate();
     let parts = [given.x, given.y, given.z];
     let lost = if parts.iter().any(|part| *part != 0.0 && (part / scale).abs() < TINY) { TINY * TINY } else { 0.0 };
-    let in_radians = unit == AngleUnit::RADIAN;
+    let in_radians = unit == Unit::ONE;
     if in_radians && are_exact(axes) {
         return Some(<[f64; 3]>::from(flight.rate).map(|rate| exactly(rate).widened(lost)));
     }

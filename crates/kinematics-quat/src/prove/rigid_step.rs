@@ -53,7 +53,7 @@ impl<S: Simd> RigidSeries<S> {
         let [mut later, mut evaluated] = [[zero; 3]; 2];
         for n in 0..=order {
             let [w, x, y, z, a, b, c] = self.0[n];
-            let (count, size) = (h.constant(number(n + 1)), ((w.abs() + x.abs()) + (y.abs() + z.abs())) * power);
+            let (count, size) = (h.constant((n + 1) as f64), ((w.abs() + x.abs()) + (y.abs() + z.abs())) * power);
             turn = turn + size;
             turn_evaluated = size.mul_add(count, turn_evaluated);
             if n > 0 {
@@ -86,7 +86,7 @@ impl<S: Simd> RigidSeries<S> {
         }
         for n in order..=2 * order {
             let [w, x, y, z, a, b, c] = products(&self.0[n - order..=order]);
-            let share = power * h.constant(1.0 / number(n + 1));
+            let share = power * h.constant(1.0 / (n + 1) as f64);
             let size = w.mul_add(w, x.mul_add(x, y.mul_add(y, z * z))).sqrt();
             turn = size.mul_add(share, turn);
             rates = ((a * p).abs() + (b * q).abs() + (c * r).abs()).mul_add(share, rates);
@@ -94,12 +94,4 @@ impl<S: Simd> RigidSeries<S> {
         }
         [turn, rates]
     }
-}
-
-/// n, at most twice an order.
-#[inline(always)]
-fn number(n: usize) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "an order")]
-    let number = n as f64;
-    number
 }

@@ -1,35 +1,12 @@
 //! Tests of the quaternion solver by Runge-Kutta schemes and Taylor series.
 
 use dynamics::{Body, Coin, Launch, Scheme, TimeOfFlight, Tosses, Vector3};
-use exact::ExactMotion;
-
-use dynamics::integrate::OdeSystem;
 
 use super::*;
 
 fn toss(tilt: f64) -> Toss {
     let launch = Launch::new(Vector3::new(9.0, -4.0, 3.0), TimeOfFlight::Given(0.8)).unwrap();
     Toss::new(Coin::PAPER, launch.with_tilt(tilt).unwrap())
-}
-
-/// Compares Q' = ½ Q ⊗ (0, ω) with central differences of the exact attitude.
-#[test]
-fn the_derivative_is_that_of_the_exact_motion() {
-    let motion = ExactMotion::new(&toss(0.4));
-    let h = 1e-5;
-    for step in 1..8 {
-        let time = 0.1 * f64::from(step);
-        let [before, now, after] = [time - h, time, time + h].map(|time| motion.state(time).unwrap());
-        let [w, x, y, z] = now.attitude.components();
-        let state = SVector::from([w, x, y, z, now.rate.x, now.rate.y]);
-        let found = QuaternionSystem::new(0.5, now.rate.z).derivative(&state);
-        let ends = after.attitude.components().into_iter().zip(before.attitude.components());
-        for (part, (a, b)) in ends.enumerate() {
-            assert!((found[part] - (a - b) / (2.0 * h)).abs() < 1e-7, "component {part} at {time}");
-        }
-        assert!((found[4] - (after.rate.x - before.rate.x) / (2.0 * h)).abs() < 1e-7);
-        assert!((found[5] - (after.rate.y - before.rate.y) / (2.0 * h)).abs() < 1e-7);
-    }
 }
 
 #[test]

@@ -139,7 +139,16 @@ pub(crate) struct StepPlans {
 impl StepPlans {
     /// The plans of coins, for local errors of `tolerance`.
     pub(crate) fn of_coins(tolerance: f64) -> Self {
-        Self { short: StepPlan::of_coins(tolerance), long: StepPlan { tolerance, ..StepPlan::of_coins(f64::EPSILON) } }
+        Self::by(StepPlan::of_coins, tolerance)
+    }
+
+    /// The plans of other bodies, for local errors of `tolerance`.
+    pub(crate) fn of_bodies(tolerance: f64) -> Self {
+        Self::by(StepPlan::of_bodies, tolerance)
+    }
+
+    fn by(plan: fn(f64) -> StepPlan, tolerance: f64) -> Self {
+        Self { short: plan(tolerance), long: StepPlan { tolerance, ..plan(f64::EPSILON) } }
     }
 
     /// The plans of coins for local errors of so large a `tolerance` that rounding does not matter in long flights either.
@@ -159,14 +168,6 @@ impl StepPlans {
         let finest = StepPlan::of_coins(f64::EPSILON);
         let plan = StepPlan { order, compensates: false, shortest: step, growth: [[1.0; 2]; 6], ..finest };
         Self { short: plan, long: plan }
-    }
-
-    /// The plans of other bodies, for local errors of `tolerance`.
-    pub(crate) fn of_bodies(tolerance: f64) -> Self {
-        Self {
-            short: StepPlan::of_bodies(tolerance),
-            long: StepPlan { tolerance, ..StepPlan::of_bodies(f64::EPSILON) },
-        }
     }
 }
 

@@ -15,31 +15,3 @@ pub(crate) fn turned<S: Simd>(p: [Real<S>; 4], [[w2, z2], [x2, y2]]: [Complex<Re
         w1.mul_add(z2, z1.mul_add(w2, x1.mul_add(y2, -(y1 * x2)))),
     ]
 }
-
-#[cfg(test)]
-mod tests {
-    use dynamics::Attitude;
-    use numerics::lanes::{SimdLevel, WithSimd};
-
-    use super::*;
-
-    struct Turned([f64; 4], [Complex<f64>; 2]);
-
-    impl WithSimd for Turned {
-        type Output = [f64; 4];
-
-        fn with_simd<S: Simd>(self, simd: S) -> [f64; 4] {
-            let splat = |value| Real::splat(simd, value);
-            turned(self.0.map(splat), self.1.map(|number| number.map(splat))).map(Real::first)
-        }
-    }
-
-    #[test]
-    fn a_turn_is_the_product_of_attitudes() {
-        let of = |components: [f64; 4]| Attitude::from_components(components).unwrap();
-        let (p, r) = (of([0.3, -0.7, 0.5, 0.4]), of([-0.2, 0.6, 0.1, 0.9]));
-        let [w, x, y, z] = r.components();
-        let found = of(SimdLevel::widest().run(Turned(p.components(), [[w, z], [x, y]])));
-        assert!(found.angle_to(&(p * r)) < 1e-15);
-    }
-}

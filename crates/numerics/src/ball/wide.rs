@@ -3,8 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::big::{Big, exactly};
-use crate::double_double::DoubleDouble;
-use crate::elementary::Elementary;
+use crate::elementary::{Elementary, answered_by};
 use crate::number::Number;
 
 /// Digits of a radius.
@@ -153,21 +152,7 @@ impl Elementary for WideBall {
         Self::rounded(midpoint, Some(part(0.0)), value)
     }
 
-    fn to_f64(&self) -> f64 {
-        self.midpoint.to_f64().value()
-    }
-
-    fn to_double_double(&self) -> DoubleDouble {
-        Elementary::to_double_double(&self.midpoint)
-    }
-
-    fn to_big(&self) -> Big {
-        Elementary::to_big(&self.midpoint)
-    }
-
-    fn digits(&self) -> i32 {
-        Elementary::digits(&self.midpoint)
-    }
+    answered_by!(self, self.midpoint);
 
     fn sqrt(&self) -> Self {
         let root = Elementary::sqrt(&self.midpoint);
@@ -225,10 +210,6 @@ impl Elementary for WideBall {
     fn times_power_of_two(&self, exponent: i32) -> Self {
         let midpoint = self.midpoint.times_power_of_two(exponent);
         Self { midpoint, radius: self.radius.as_ref().map(|radius| radius.times_power_of_two(exponent)) }
-    }
-
-    fn sign(&self) -> f64 {
-        Elementary::sign(&self.midpoint)
     }
 
     /// Not below the radius, and 0 for an exact number alone.

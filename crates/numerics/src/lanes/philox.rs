@@ -34,7 +34,6 @@ pub struct Philox {
 impl Philox {
     /// The generator with this key, whose first word is the lower half of `key`.
     pub const fn new(key: u64) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "the two halves")]
         let mut keys = [[key as u32, (key >> 32) as u32]; ROUNDS];
         let mut round = 1;
         while round < ROUNDS {

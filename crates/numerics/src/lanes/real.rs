@@ -76,21 +76,18 @@ impl<S: Simd> Real<S> {
 
     /// √self.
     #[inline(always)]
-    #[must_use]
     pub fn sqrt(self) -> Self {
         Self { value: self.simd.sqrt_f64s(self.value), ..self }
     }
 
     /// |self|.
     #[inline(always)]
-    #[must_use]
     pub fn abs(self) -> Self {
         Self { value: self.simd.abs_f64s(self.value), ..self }
     }
 
     /// `self` × `factor` + `term`, rounded once. It is a library call where the machine has no such instruction.
     #[inline(always)]
-    #[must_use]
     pub fn mul_add(self, factor: Self, term: Self) -> Self {
         Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
     }
@@ -144,7 +141,6 @@ impl<S: Simd> Real<S> {
 
     /// `self` times the sign of `other` (1 or -1, also of ±0).
     #[inline(always)]
-    #[must_use]
     pub fn times_sign_of(self, other: Self) -> Self {
         let (one, two) = (self.simd.transmute_u64s_f64s(self.value), self.simd.transmute_u64s_f64s(other.value));
         let sign = self.simd.and_u64s(two, self.simd.splat_u64s(1 << 63));
@@ -153,7 +149,6 @@ impl<S: Simd> Real<S> {
 
     /// A number whose sign bit is set where that of `self` or of `other` is. Only its sign means anything.
     #[inline(always)]
-    #[must_use]
     pub fn either_sign(self, other: Self) -> Self {
         let (one, two) = (self.simd.transmute_u64s_f64s(self.value), self.simd.transmute_u64s_f64s(other.value));
         Self { value: self.simd.transmute_f64s_u64s(self.simd.or_u64s(one, two)), ..self }
@@ -161,21 +156,18 @@ impl<S: Simd> Real<S> {
 
     /// The larger of `self` and `other`, neither of which is NaN.
     #[inline(always)]
-    #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
     /// The smaller of `self` and `other`, neither of which is NaN.
     #[inline(always)]
-    #[must_use]
     pub fn min(self, other: Self) -> Self {
         Self { value: self.simd.min_f64s(self.value, other.value), ..self }
     }
 
     /// The number in [-1, 1] that is nearest to `self`, which is not NaN.
     #[inline(always)]
-    #[must_use]
     pub fn clamp_to_cosine(self) -> Self {
         let at_least = self.max(self.constant(-1.0));
         Self { value: self.simd.min_f64s(at_least.value, self.simd.splat_f64s(1.0)), ..self }

@@ -3,7 +3,7 @@
 
 use dynamics::{Body, Toss};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
-use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
+use toss::quantity::{Quantity, Unit};
 use toss::{Attitude, Coin, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::measure::effort::Effort;
@@ -39,14 +39,14 @@ struct Drawn {
     body: Body,
     /// In the unit, of the size of 1.
     rate: [f64; 3],
-    unit: AngleUnit,
+    unit: Unit,
     /// `None` for any.
     attitude: Option<Attitude>,
 }
 
 impl Drawn {
     fn new(body: Result<Body, InputError>, rate: [f64; 3]) -> Option<Self> {
-        Some(Self { body: body.ok()?, rate, unit: AngleUnit::RADIAN, attitude: None })
+        Some(Self { body: body.ok()?, rate, unit: Unit::ONE, attitude: None })
     }
 
     /// A body with these moments and the rate along them, about axes that `index` permutes.
@@ -182,12 +182,12 @@ pub(super) const HARD: [Family; 8] = [
             let (radius, thickness) = (numbers.between(5.0, 20.0), numbers.between(0.5, 60.0));
             let [gram, millimetre] = [(); 2].map(|()| Unit::ratio(1, 1000).unwrap_or(Unit::ONE));
             let coin = Coin::from_cylinder(
-                Quantity::new(numbers.between(1.0, 30.0), gram),
-                Quantity::new(radius, millimetre),
-                Quantity::new(thickness, millimetre),
+                gram.times(numbers.between(1.0, 30.0)),
+                millimetre.times(radius),
+                millimetre.times(thickness),
             );
             let body = if index % 2 == 0 { coin.map(Body::from) } else { Body::from_moments(moments(numbers)) };
-            let unit = AngleUnit::Turns(if index % 3 == 0 { Unit::ONE } else { DEGREE });
+            let unit = if index % 3 == 0 { Unit::TURN } else { Unit::DEGREE };
             let drawn = Drawn::new(body, vector(numbers))?;
             Some(Drawn { unit, attitude: Some(Attitude::about_x(in_degrees(numbers))), ..drawn })
         },
@@ -213,15 +213,9 @@ pub(super) const HARD: [Family; 8] = [
     },
 ];
 
-/// A degree, as a part of a turn.
-const DEGREE: Unit = match Unit::ratio(1, 360) {
-    Some(degree) => degree,
-    None => Unit::ONE,
-};
-
 /// An angle of up to 180 degrees.
-fn in_degrees(numbers: &mut Numbers) -> Angle {
-    AngleUnit::Turns(DEGREE).times(numbers.between(-180.0, 180.0))
+fn in_degrees(numbers: &mut Numbers) -> Quantity {
+    Unit::DEGREE.times(numbers.between(-180.0, 180.0))
 }
 
 /// A body with these moments about axes that `turn` permutes.

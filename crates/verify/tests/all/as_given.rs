@@ -6,7 +6,7 @@ use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
-use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
+use toss::quantity::{Quantity, Unit};
 use toss::{
     Attitude, Batch, Coin, CoinToss, InputError, Launch, Outcome, Solver, TimeOfFlight, Tosses, Vector3, certify,
 };
@@ -20,7 +20,7 @@ struct Inputs {
     start: StartOf,
     time: TimeOf,
     /// Of the rates.
-    unit: AngleUnit,
+    unit: Unit,
 }
 
 /// How the values make a coin, an attitude at launch and a time of flight.
@@ -49,7 +49,7 @@ const VALUES: [(&str, [f64; 2]); 16] = [
 ];
 
 fn in_unit(value: f64, of_one: u32) -> Quantity {
-    Quantity::new(value, Unit::ratio(1, of_one).expect("a unit"))
+    Unit::ratio(1, of_one).expect("a unit").times(value)
 }
 
 const MOMENTS: CoinOf = |v| Coin::from_moments(v[7], v[8]);
@@ -58,7 +58,7 @@ const MILLIMETRES: CoinOf = |v| Coin::from_cylinder(0.005, in_unit(1e3 * v[9], 1
 
 const FLAT: StartOf = |_| Ok(Attitude::IDENTITY);
 const RADIANS: StartOf = |v| Ok(Attitude::about_x(v[11]));
-const DEGREES: StartOf = |v| Ok(Attitude::about_x(Angle::Turns(in_unit(57.0 * v[11], 360))));
+const DEGREES: StartOf = |v| Ok(Attitude::about_x(Unit::DEGREE.times(57.0 * v[11])));
 const QUATERNION: StartOf = |v| Attitude::from_components([v[12], v[13], v[14], v[15]]);
 
 const GIVEN: TimeOf = |v| TimeOfFlight::Given(v[3]);
@@ -93,15 +93,14 @@ impl Inputs {
             "speed" | "gravity" => one(index, &[THROWN, DROPPED]),
             _ => one(index, &[THROWN, GIVEN, DROPPED, THROWN, GIVEN]),
         };
-        let degree = Unit::ratio(1, 360).expect("a unit");
-        let units = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::RADIAN, AngleUnit::Turns(Unit::ONE)];
+        let units = [Unit::ONE, Unit::DEGREE, Unit::ONE, Unit::TURN];
         Self { values, coin, start, time, unit: one(index / 5, &units) }
     }
 
     /// The toss, if there is one.
     fn toss(&self) -> Option<CoinToss> {
         let v = &self.values;
-        let rate = Vector3::new(v[0], v[1], v[2]) / self.unit.times(1.0).radians();
+        let rate = Vector3::new(v[0], v[1], v[2]) / self.unit.times(1.0).to_f64();
         let launch = Launch::in_unit(rate, self.unit, (self.time)(v)).ok()?;
         Some(CoinToss { coin: (self.coin)(v).ok()?, launch: launch.with_attitude((self.start)(v).ok()?) })
     }
@@ -150,7 +149,7 @@ fn is_right(toss: &CoinToss, outcome: Outcome) -> bool {
 /// The outcome of a batch of one toss, by its outcomes and by its counts, if there is a batch of its kind.
 fn batched(toss: &CoinToss) -> Option<Outcome> {
     let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return None };
-    let (rate, AngleUnit::RADIAN) = toss.launch.given_rate() else { return None };
+    let (rate, Unit::ONE) = toss.launch.given_rate() else { return None };
     let (rates, speeds) = ([[rate.x], [rate.y], [rate.z]], [speed]);
     let rates = rates.each_ref().map(|column| &column[..]);
     let tosses = Tosses::new(toss.coin, toss.launch.attitude(), gravity, rates, &speeds).expect("a batch");

@@ -1,5 +1,5 @@
 //! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
-//! SIMD registers and decides nearly all of them; [`certify`] proves the few that it leaves.
+//! SIMD registers and decides nearly all of them; [`certify`](crate::certify) proves the few that it leaves.
 //!
 //! # The motion by theta functions
 //! Single tosses double a point of an elliptic curve ([`rigid`](crate::rigid)). Lanes take functions of two phases, which have
@@ -53,12 +53,12 @@ mod start;
 use std::ops::Range;
 
 use dynamics::{Body, Error, Outcome, Tosses};
-use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
+use numerics::lanes::{Real, Simd, WithSimd};
 
 use super::Batch;
-use super::proving::{self, Proving};
-use crate::certificate::{Certificate, ProvenCounts};
-use crate::rigid::certify;
+use super::kernel::{Columns, whole_registers};
+use super::proving::Filter;
+use crate::certificate::ProvenCounts;
 use constants::Constants;
 pub use filter::BodyFilter;
 use landing::{Begun, Height};
@@ -70,75 +70,35 @@ const TILE: usize = 64;
 const BETWEEN: usize = 18;
 
 impl Batch<'_, Body> {
-    /// Writes the proven outcome of each toss, that of [`certify`].
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If `out` does not have one entry per toss.
+    /// Writes the proven outcome of each toss, that of [`certify`](crate::certify). Fails for the first toss that has no
+    /// outcome; the contents of `out` are then unspecified. Panics if `out` does not have one entry per toss.
     pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
-        proving::outcomes(&Filtered(self, Constants::new(&self.tosses)), out)
+        self.outcomes_by(&Constants::new(&self.tosses), out)
     }
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome.
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by
+    /// [`certify`](crate::certify). Fails for the first toss that has no outcome.
     pub fn count(&self) -> Result<ProvenCounts, Error> {
-        self.count_and(|_| ())
-    }
-
-    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`]
-    /// did.
-    ///
-    /// # Errors
-    /// As [`Batch::count`].
-    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
-        proving::count(&Filtered(self, Constants::new(&self.tosses)), left)
+        self.counts_by(&Constants::new(&self.tosses))
     }
 
     /// As [`Batch::count`], by a filter that other batches may share. The counts are the same for every filter; one that was
     /// made for another body, attitude or gravity saves no time.
-    ///
-    /// # Errors
-    /// As [`Batch::count`].
     pub fn count_by(&self, filter: &BodyFilter) -> Result<ProvenCounts, Error> {
-        proving::count(&Filtered(self, filter.constants_of(&self.tosses)), |_| ())
+        self.counts_by(&filter.constants_of(&self.tosses))
     }
 }
 
-/// A batch with the constants of its filter, if it has one.
-struct Filtered<'a, 'b>(&'a Batch<'b, Body>, Option<Constants>);
-
-impl Proving for Filtered<'_, '_> {
-    fn len(&self) -> usize {
-        self.0.tosses.len()
-    }
-
-    fn level(&self) -> SimdLevel {
-        self.0.level
-    }
-
-    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
-        match &self.1 {
-            Some(constants) => {
-                let tosses = self.0.tosses.part(range);
-                self.0.level.run(BatchRun { constants, tosses, out: heights });
-            }
+/// The constants of a filter, if the body has one.
+impl Filter<Body> for Option<Constants> {
+    fn heights(&self, batch: &Batch<'_, Body>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        match self {
+            Some(constants) => batch.level.run(BatchRun { constants, tosses: batch.tosses.part(range), out: heights }),
             None => heights.fill(0.0),
         }
         Ok(())
     }
-
-    fn certify(&self, index: usize) -> Result<Certificate, Error> {
-        self.0.tosses.solve(index, certify)
-    }
 }
-
-/// Columns of a tile, aligned to whole cache lines for fast loads and stores.
-#[repr(align(64))]
-struct Columns<const N: usize>([[f64; TILE]; N]);
 
 /// The filter, run over tosses.
 struct BatchRun<'a, 'out> {
@@ -154,8 +114,7 @@ impl WithSimd for BatchRun<'_, '_> {
     /// Two short loops over a tile overlap the operations of more tosses than one long loop.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut between = Columns([[0.0; TILE]; BETWEEN]);
-        let mut padded = Columns([[1.0; TILE]; 4]);
+        let (mut padded, mut between) = (Columns::<4, TILE>::of(1.0), Columns::<BETWEEN, TILE>::of(0.0));
         for start in (0..self.tosses.len()).step_by(TILE) {
             let tile = start..(start + TILE).min(self.tosses.len());
             let columns = whole_registers(&self.tosses, tile.clone(), Real::<S>::LANES, &mut padded);
@@ -164,17 +123,10 @@ impl WithSimd for BatchRun<'_, '_> {
                 for (part, column) in launch.iter_mut().zip(&columns) {
                     *part = Real::load(simd, &column[at..]);
                 }
-                let begun = self.constants.begin(launch);
-                for (part, column) in begun.iter().zip(&mut between.0) {
-                    part.store(&mut column[at..]);
-                }
+                between.store(&self.constants.begin(launch), at);
             }
             for at in (0..columns[0].len()).step_by(Real::<S>::LANES) {
-                let mut begun = [Real::splat(simd, 0.0); BETWEEN];
-                for (part, column) in begun.iter_mut().zip(&between.0) {
-                    *part = Real::load(simd, &column[at..]);
-                }
-                let written = self.constants.end(begun).written();
+                let written = self.constants.end(between.load(simd, at)).written();
                 written.store_up_to(&mut self.out[start + at..tile.end]);
             }
         }
@@ -201,26 +153,6 @@ impl Constants {
         let (point, turns, points) = ([cos, sin], [across, precession], [[a, b], [c, d], [e, f], [g, h]]);
         self.landing(&Begun { point, is_c, side, upright, condition, turns, decay, nome, points })
     }
-}
-
-/// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
-/// to `room`.
-#[inline(always)]
-fn whole_registers<'a>(
-    tosses: &Tosses<'a, Body>,
-    tile: Range<usize>,
-    lanes: usize,
-    room: &'a mut Columns<4>,
-) -> [&'a [f64]; 4] {
-    let columns = tosses.columns(tile);
-    let tosses = columns[0].len();
-    if tosses.is_multiple_of(lanes) {
-        return columns;
-    }
-    for (padded, column) in room.0.iter_mut().zip(columns) {
-        padded[..tosses].copy_from_slice(column);
-    }
-    room.0.each_ref().map(|column| &column[..tosses.next_multiple_of(lanes)])
 }
 
 #[cfg(test)]

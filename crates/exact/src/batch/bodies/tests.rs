@@ -113,29 +113,17 @@ fn bodies() -> Vec<Body> {
     moments.map(|moments| Body::from_moments(moments).unwrap()).into_iter().chain(turned).collect()
 }
 
-/// So many launches of all bodies at speeds up to `speed` (m/s) have errors within their bounds, of which the part `least`
-/// would not do.
-fn check_errors(number: usize, speed: f64, least: f64) {
-    for body in bodies() {
-        let launches = Columns::new(number, 60.0, speed);
-        let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::about_x(0.3)), 0.0..f64::MAX);
-        assert!(tried + 10 > number && largest > least, "{body:?}: {largest:e} of {tried}");
+/// Short, ordinary and long flights of all bodies have errors within their bounds, of which the part `least` would not do.
+#[test]
+fn errors_are_within_their_bounds_and_not_far_below() {
+    const NUMBER: usize = 1500;
+    for (speed, least) in [(0.02, 0.03), (5.0, 0.1), (5e5, 0.01)] {
+        for body in bodies() {
+            let launches = Columns::new(NUMBER, 60.0, speed);
+            let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::about_x(0.3)), 0.0..f64::MAX);
+            assert!(tried + 10 > NUMBER && largest > least, "{body:?}, {speed} m/s: {largest:e} of {tried}");
+        }
     }
-}
-
-#[test]
-fn errors_of_short_flights_are_within_their_bounds() {
-    check_errors(1500, 0.02, 0.03);
-}
-
-#[test]
-fn errors_are_within_their_bounds_of_which_a_tenth_would_not_do() {
-    check_errors(1500, 5.0, 0.1);
-}
-
-#[test]
-fn errors_of_long_flights_are_within_their_bounds() {
-    check_errors(1500, 5e5, 0.01);
 }
 
 /// There the rounding of E counts, and the series end too early.
@@ -168,6 +156,7 @@ fn results_have_the_same_bits_at_every_level_and_length() {
             out.into_iter().map(f64::to_bits).collect::<Vec<_>>()
         };
         let plain = found(SimdLevel::all()[0], 0..300);
+        assert!(plain.iter().filter(|height| f64::from_bits(**height) == 0.0).count() < 3, "nearly all are decided");
         for level in SimdLevel::all() {
             for range in [0..300, 0..1, 1..8, 17..34, 3..259, 63..130] {
                 assert_eq!(found(level, range.clone()), plain[range.clone()], "{range:?} at {}", level.name());

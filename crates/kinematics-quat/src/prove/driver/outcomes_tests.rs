@@ -29,15 +29,18 @@ fn tosses(phase: f64) -> Vec<Toss> {
     (0..400).map(toss).collect()
 }
 
+fn outcomes(solver: &QuaternionSolver, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+    solver.decide(tosses, level).into_iter().map(|found| found.map(|found| found.outcome)).collect()
+}
+
 #[test]
 fn outcomes_are_those_of_the_certificates_at_every_simd_level() {
     let solver = solver(1e-10);
     for phase in [30.0, 300.0, 3000.0] {
         let tosses = tosses(phase);
-        let certified = solver.certify_all(&tosses, SimdLevel::widest());
-        let expected: Vec<_> = certified.into_iter().map(|found| found.map(|found| found.outcome())).collect();
+        let expected: Vec<_> = tosses.iter().map(|toss| solver.certify(toss).map(|found| found.outcome())).collect();
         for level in SimdLevel::all() {
-            assert_eq!(solver.prove_outcomes(&tosses, level), expected, "{}", level.name());
+            assert_eq!(outcomes(&solver, &tosses, level), expected, "{}", level.name());
         }
         let decided = solver.proven(&tosses, SimdLevel::widest(), &[Stage::Coarse]);
         let is_open = |found: &&Certified| found.as_ref().unwrap().outcome == Outcome::Undecided;
@@ -63,7 +66,7 @@ fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
     let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
     let launch = |time| Launch::new([0.0, 7.0, 0.0], TimeOfFlight::Given(time)).unwrap().with_attitude(edge);
     let tosses = [1.0, 0.0, 1e17].map(|time| Toss::new(Coin::DISC, launch(time)));
-    let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
+    let found = outcomes(&solver(1e-9), &tosses, SimdLevel::widest());
     assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
     assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));
     let heads = Toss::new(Coin::DISC, Launch::new([0.5, 0.25, 9.0], TimeOfFlight::Given(1.0)).unwrap());
@@ -72,12 +75,11 @@ fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
     assert_eq!((decided.outcome, decided.stage), (Outcome::Heads, Stage::F64));
     // A solver that proves nothing has no outcome of a coarse flight either.
     let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
-    assert_eq!(solver(1e-9).prove_outcomes(&[heads], SimdLevel::widest()), [Ok(Outcome::Heads)]);
     for stepping in [Stepping::DEFAULT, taylor] {
         let raw = QuaternionSolver::new(stepping, Formulation::RAW);
-        for refused in raw.prove_outcomes(&[tosses[0], heads], SimdLevel::widest()) {
+        for refused in raw.decide(&[tosses[0], heads], SimdLevel::widest()) {
             assert!(matches!(refused, Err(SolveError::NotProven { .. })), "{refused:?}");
         }
     }
-    assert_eq!(solver(1e-2).prove_outcomes(&tosses[..1], SimdLevel::widest()), [Ok(Outcome::Undecided)]);
+    assert_eq!(outcomes(&solver(1e-2), &tosses[..1], SimdLevel::widest()), [Ok(Outcome::Undecided)]);
 }

@@ -1,7 +1,7 @@
 //! Tests of proofs by integration.
 
-use dynamics::{Angle, AngleUnit, Body, Coin, Formulation, Launch, Quantity, Scheme, Stepping, TimeOfFlight, Unit};
-use exact::{CoinMotion, certify};
+use dynamics::{Body, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight, Unit};
+use exact::certify;
 use nalgebra::Vector3;
 
 use super::rigid_tests::shares;
@@ -77,74 +77,9 @@ fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic(
     }
 }
 
-fn flown(plans: &StepPlans, toss: &CoinToss) -> (Landed<Record>, Record) {
-    let mut landed = None;
-    let toss = Toss::from(*toss);
-    fly::<Coins>(plans, [(0, &toss)].into_iter(), SimdLevel::for_one_lane(), |_, found| landed = found.ok());
-    let landed = landed.unwrap();
-    (landed, landed.bound)
-}
-
-/// The defect of the attitude alone does not bound its error: the rates are integrated too.
-#[test]
-fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
-    let (coin, time) = (Coin::from_moments(1.0, 0.0).unwrap(), TimeOfFlight::Given(100.0));
-    for (x, ratio) in [(1.0, 2.0), (0.2, 8.0), (0.05, 14.0)] {
-        let toss = CoinToss { coin, launch: Launch::new([x, 0.0, 1.0], time).unwrap() };
-        // |ω| h = 0.1, at order 4.
-        let plans = StepPlans::fixed(4, 0.1 / x.hypot(1.0));
-        let (landed, record) = flown(&plans, &toss);
-        let step = steps(&toss, &landed.flight, &record);
-        let step = bounds(plans.of(false), SimdLevel::for_one_lane(), &[step])[0];
-        let landing = Attitude::from_components(landed.turn).unwrap();
-        let error = 0.5 * landing.angle_to(&CoinMotion::new(&toss).state(time).unwrap().attitude);
-        let defects = record.steps as f64 * step.turn;
-        assert!(error > ratio * defects, "{error:e}, {defects:e}");
-        assert!(error < attitude_bound(&toss, &landed.flight, &record, &step));
-    }
-}
-
-/// Each fault is one that the bound has to notice, because it follows the numbers of the steps.
-#[test]
-fn the_bound_grows_with_each_fault_of_a_step() {
-    let (toss, plans) = (random(&mut Numbers(3), 30.0).coin().unwrap(), StepPlans::of_coins(1e-10));
-    let (Landed { flight, .. }, record) = flown(&plans, &toss);
-    let bound = |record: Record, longer: f64| {
-        let mut step = steps(&toss, &flight, &record);
-        step.longest *= longer;
-        let step = bounds(plans.of(false), SimdLevel::for_one_lane(), &[step])[0];
-        attitude_bound(&toss, &flight, &record, &step)
-    };
-    let right = bound(record, 1.0);
-    let [least, most] = record.moduli;
-    assert!(bound(record, 1.1) > 5.0 * right, "a longer step");
-    assert!(bound(Record { steps: 2 * record.steps, ..record }, 1.0) > 1.9 * right, "more steps");
-    assert!(bound(Record { moduli: [least * (1.0 - 1e-9), most], ..record }, 1.0) > right + 1e-9, "another rate");
-}
-
-#[test]
-fn bounds_of_the_toss_cover_what_rounding_it_changes() {
-    let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
-    let rate = [100.0, 30.0, 77.0];
-    let launch = |time| Launch::in_unit(rate, degree, time).unwrap();
-    let time = TimeOfFlight::Ballistic { speed: 3.3, gravity: 9.81 };
-    let coin = Coin::from_moments(3.0, 1.0).unwrap();
-    let toss = Toss::new(coin, launch(time));
-    let solver = solver(f64::EPSILON);
-    let found = solver.enclose(&toss).unwrap().attitude_error_bound();
-    let rounded = Toss { launch: launch(TimeOfFlight::Given(time.seconds())), ..toss };
-    let of_time = found - solver.enclose(&rounded).unwrap().attitude_error_bound();
-    let exact = time.exact();
-    let lost = (exact.mantissa().times_power_of_two(exact.exponent()) - time.seconds().into()).hi().abs();
-    approx::assert_relative_eq!(of_time, 0.5 * toss.launch.turn_rate() * lost, epsilon = 0.0, max_relative = 1e-2);
-    let in_radians = Toss { launch: Launch::new(toss.launch.rate(), time).unwrap(), ..toss };
-    let of_unit = found - solver.enclose(&in_radians).unwrap().attitude_error_bound();
-    assert!(of_unit > UNIT_ROUNDOFF * 0.5 * toss.launch.turn_rate() * time.seconds(), "{of_unit:e}");
-}
-
 #[test]
 fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
-    let quarter = Angle::Turns(Quantity::new(0.25, Unit::ratio(1, 1).unwrap()));
+    let quarter = Unit::TURN.times(0.25);
     let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(0.0)).unwrap();
     let [right, three] = [launch.with_tilt(quarter).unwrap(), launch.with_tilt(-3.0).unwrap()];
     for (launch, tilt) in [(launch, 0.0), (right, 0.5 * std::f64::consts::PI), (three, 3.0)] {
@@ -153,14 +88,6 @@ fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
             let bounds = [found.error_bound(), found.attitude_error_bound()].map(|bound| bound / UNIT_ROUNDOFF);
             approx::assert_relative_eq!(bounds[0], 20.0, max_relative = 1e-12);
             approx::assert_relative_eq!(bounds[1], 24.0 + tilt, max_relative = 1e-12);
-            // The error of a turn moves the normal by twice as much.
-            let flown =
-                Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(2.0)).unwrap().with_attitude(launch.attitude());
-            let found = solver(1e-9).enclose(&Toss { body, launch: flown }).unwrap();
-            let [normal, turn] = [found.error_bound(), found.attitude_error_bound()];
-            let roundings = bounds.map(|bound| bound * UNIT_ROUNDOFF);
-            let of_turn = 2.0 * (turn - roundings[1]);
-            approx::assert_relative_eq!(normal - roundings[0], of_turn, epsilon = 0.0, max_relative = 1e-6);
         }
     }
 }
@@ -237,7 +164,7 @@ fn what_proves_nothing_refuses_to() {
         assert!(matches!(refused, SolveError::NotProven { .. }) && refused.to_string().contains(why), "{refused}");
         assert_eq!(solver.enclose(&toss).unwrap_err(), refused);
         assert_eq!(solver.enclose(&book).unwrap_err(), refused);
-        assert_eq!(solver.certify_all(&[toss, book], SimdLevel::widest()), [Err(refused.clone()), Err(refused)]);
+        assert_eq!(solver.decide(&[toss, book], SimdLevel::widest()), [Err(refused.clone()), Err(refused)]);
     }
     let too_long = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1e17)).unwrap(), ..toss };
     assert!(matches!(solver(1e-9).certify(&too_long), Err(SolveError::PhaseTooLarge { .. })));

@@ -1,6 +1,6 @@
 //! Tests of each part of the sum against the formulas (4) and (20) of the proof, where no other part is as large.
 
-use dynamics::{AngleUnit, Body, Coin, Flight, TimeOfFlight, Toss, Unit};
+use dynamics::{Body, Coin, Flight, TimeOfFlight, Toss, Unit};
 
 use super::*;
 
@@ -61,7 +61,7 @@ fn a_direction_of_no_rate_is_no_error() {
 
 #[test]
 fn rates_in_another_unit_are_off_by_their_rounding_in_each_part() {
-    let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+    let degree = Unit::DEGREE;
     let (toss, flight) = toss(Launch::in_unit([50.0, 0.0, -70.0], degree, TimeOfFlight::Given(10.0)).unwrap());
     let (eta, z, span, rounding) = (0.5 * flight.rate.x, flight.rate.z.abs(), flight.span(), 1.01 * UNIT_ROUNDOFF);
     let record = Record { steps: 1, moduli: [eta; 2], longest: 1.0 };

@@ -28,45 +28,6 @@ fn tosses() -> impl Iterator<Item = ([f64; 3], Toss)> {
     MOMENTS.into_iter().flat_map(|moments| RATES.map(|rate| (moments, toss(moments, rate))))
 }
 
-/// κ1 above 1 is no less than what each bound of section 7 allows for, and without it the Jacobian exceeds its bound.
-#[test]
-fn bounds_hold_for_a_plate_whose_rounded_moments_break_the_inequality() {
-    let off = |e: [f64; 3], [k, l]: [f64; 2]| Vector3::new(-k * e[1] * e[2], e[0] * e[2], -l * e[0] * e[1]);
-    let mut beyond = [false; 5];
-    for rate in RATES.into_iter().chain([[0.001, 1.2, 1.3], [0.0, 1.0, 1.0], [0.02, 1.7, 1.7]]) {
-        let toss = toss(THIN, rate);
-        let polhode = polhode(&toss);
-        let kappas = polhode.rounded_kappas();
-        assert!(toss.body.rigid().couplings()[0] < -1.8 && kappas[0] > 1.27 && polhode.widest >= kappas[0]);
-        for rate in rates(&toss) {
-            let (f, jacobian) = field(THIN, &rate);
-            let momentum = Vector3::from(THIN).component_mul(&rate);
-            let across = rate - momentum * (rate.dot(&momentum) / momentum.norm_squared());
-            let growth = (0.5 * (jacobian + jacobian.transpose())).symmetric_eigenvalues().amax();
-            let [a, b] = polhode.invariants.map(|ball| ball.to_f64());
-            let gradient = Vector3::new(rate.x, kappas[0] * rate.y, 0.0).norm() / rate.norm();
-            let square = off(rate.into(), kappas).norm() / rate.norm_squared();
-            let shares = [
-                jacobian.norm() / (ROOT_2 * polhode.coupling * polhode.fastest),
-                square / INVERSE_ROOT_3,
-                f.norm() / polhode.coupling / (a * b).sqrt(),
-                gradient,
-                polhode.speed(rate.into()) / off(rate.into(), kappas).norm(),
-            ];
-            for (beyond, share) in beyond.iter_mut().zip(shares) {
-                assert!(share <= polhode.widest * (1.0 + 1e-9), "{shares:?}, {toss:?}");
-                *beyond |= share > 1.0 + 1e-9;
-            }
-            assert!(
-                shares[4] <= 1.0 + 1e-9 && growth <= polhode.growth * (1.0 + 1e-9) && across.norm() <= polhode.across
-            );
-            assert!(rate.norm() <= polhode.fastest);
-        }
-    }
-    // The hypothesis that couplings are at most 1 is false of this body, and the formulas that rest on it are, too.
-    assert!(beyond[0] && beyond[1] && beyond[2] && beyond[3], "{beyond:?}");
-}
-
 /// The rates at some times.
 fn rates(toss: &Toss) -> impl Iterator<Item = Vector3<f64>> {
     let motion = ExactMotion::new(toss);
@@ -224,6 +185,7 @@ fn bounds_of_numbers_have_room_for_their_rounding_and_no_more() {
 fn an_error_grows_by_its_formula() {
     for (_, toss) in tosses().chain([(THIN, toss(THIN, RATES[0]))]) {
         let polhode = polhode(&toss);
+        assert!(polhode.widest >= polhode.rounded_kappas()[0].max(1.0), "κ1 of a thin plate is above 1");
         for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.1, 2.5), (0.3, 2.0), (2.0, 9.0)] {
             let first = start * exp_above(polhode.growth * h);
             let square = exp_above(2.0 * 0.5774 * polhode.widest * polhode.coupling * first * h);
@@ -292,17 +254,6 @@ fn a_bound_of_the_exponential_is_above_it_and_close() {
     assert_eq!([exp_above(16.0), exp_above(1e300)], [f64::INFINITY; 2]);
 }
 
-/// Next to the middle axis, where the conditions fail, nothing is said of the shift.
-#[test]
-fn without_its_conditions_there_is_no_shift() {
-    let toss = toss(MOMENTS[0], [1e-9, 1.5, 1e-9]);
-    let mut errors = Errors::at_launch(polhode(&toss), [1e-9, 1.5, 1e-9]);
-    errors.add(&Step { h: 0.1, turn: 0.0, rates: 1e-10, rounding: 1e-10, after: [1e-9, 1.5, 1e-9] });
-    assert!(errors.along.shift == f64::INFINITY && errors.bound().is_finite());
-    errors.add(&Step { h: 1e3, turn: 0.0, rates: 0.0, rounding: 0.0, after: [1e-9, 1.5, 1e-9] });
-    assert!(errors.bound() == f64::INFINITY);
-}
-
 /// The shift is bounded by (17) exactly where the conditions (18) hold, and underflow counts unless no product can have it.
 #[test]
 fn a_shift_is_bounded_where_its_conditions_hold() {
@@ -349,7 +300,7 @@ fn a_shift_is_bounded_where_its_conditions_hold() {
 /// Rates in another unit whose product with it may leave the range of f64, or lose digits below it.
 #[test]
 fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
-    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    let degree = dynamics::Unit::DEGREE;
     for (size, is_told) in [(1e-210, false), (1e-190, true), (1.0, true), (1e190, true), (1e210, false)] {
         let rates = [40.0, -23.0, 63.0].map(|part: f64| part * size);
         let launch = Launch::in_unit(rates, degree, TimeOfFlight::Given(10.0 / size)).unwrap();
@@ -401,7 +352,7 @@ fn the_difference_from_the_model_counts() {
 /// Rates in degrees and the axes of a tensor are rounded, and no more.
 #[test]
 fn the_rounding_of_the_toss_counts() {
-    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    let degree = dynamics::Unit::DEGREE;
     let launch = Launch::in_unit([40.0, -23.0, 63.0], degree, TimeOfFlight::Given(10.0)).unwrap();
     let exact = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
     for (rate, is_about_axis) in [([40.0, 0.0, 0.0], true), ([40.0, 0.0, 1.0], false)] {

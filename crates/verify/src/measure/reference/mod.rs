@@ -27,7 +27,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use dynamics::Toss;
 use numerics::DoubleDouble;
-use toss::quantity::{Angle, AngleUnit, Quantity};
+use toss::quantity::Quantity;
 use toss::{Attitude, Coin, CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Vector3};
 
 /// Precision of the arithmetic in binary digits.
@@ -247,10 +247,7 @@ fn time(flight: TimeOfFlight) -> Big {
 /// ω (rad/s).
 fn rates(launch: &Launch) -> [Big; 3] {
     let (rate, unit) = launch.given_rate();
-    [rate.x, rate.y, rate.z].map(|part| match unit {
-        AngleUnit::Radians(unit) => quantity(Quantity::new(part, unit)),
-        AngleUnit::Turns(unit) => quantity(Quantity::new(part, unit)) * big(2.0) * Big::pi(PRECISION),
-    })
+    [rate.x, rate.y, rate.z].map(|part| quantity(unit.times(part)))
 }
 
 /// k of the moments, or 6 r²/(3 r² + h²) of the cylinder.
@@ -262,17 +259,15 @@ fn inertia_ratio(coin: &Coin) -> Big {
 
 /// Q0 of the given components, or the half-angle's cosine and sine of the tilt.
 fn quaternion(attitude: &Attitude) -> [Big; 4] {
-    let half = match attitude.tilt() {
-        None => return normalised(attitude.given_components().map(big)),
-        Some(Angle::Radians(radians)) => quantity(radians) / big(2.0),
-        Some(Angle::Turns(turns)) => quantity(turns) * Big::pi(PRECISION),
-    };
-    let (sin, cos) = sin_cos(&half);
+    let Some(tilt) = attitude.tilt() else { return normalised(attitude.given_components().map(big)) };
+    let (sin, cos) = sin_cos(&(quantity(tilt) / big(2.0)));
     [cos, sin, big(0.0), big(0.0)]
 }
 
 fn quantity(given: Quantity) -> Big {
-    big(given.value()) * big(given.unit().numerator().into()) / big(given.unit().denominator().into())
+    let unit = given.unit();
+    let ratio = big(given.value()) * big(unit.numerator().into()) / big(unit.denominator().into());
+    if unit.is_of_turn() { ratio * big(2.0) * Big::pi(PRECISION) } else { ratio }
 }
 
 fn to_f64(value: &Big) -> f64 {
