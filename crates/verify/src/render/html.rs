@@ -12,9 +12,9 @@ use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::run::Answer;
 use crate::measure::work_precision::YARDSTICK;
-use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
 use crate::render::report::{Cost, ENOUGH, Reached, Verdict};
+use crate::render::{Report, diagnosis};
 
 const STYLE: &str = include_str!("report.css");
 
@@ -96,6 +96,7 @@ fn answer(report: &Report) -> Markup {
     html! {
         h1 { "unfair-toss: verification" }
         p class={ "verdict " (class) } { b { (word) } " " span { (report.sentence()) } }
+        @if !report.diagnoses.is_empty() { p.lines { (diagnosis::paragraph(report)) } }
         @if !report.passed { p { (report.pattern) } }
         dl.facts {
             @for (name, value) in report.facts() { div { dt { (name) } dd { (value) } } }
