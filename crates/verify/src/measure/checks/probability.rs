@@ -116,7 +116,7 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let whole = named_space("paper-fig4")?;
-    let space = context.effort.of([whole.with_grid_of(10_000)?, whole, whole]);
+    let space = context.effort.of([whole.with_grid_of(2500)?, whole, whole]);
     let exact = counts(&space, &Sampler::exact(), Plan::Grid)?;
     let one = random_tosses(&space, 1, 0..1)[0];
     let measure = |entry: &SolverEntry| {
