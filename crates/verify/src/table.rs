@@ -14,9 +14,7 @@ pub(crate) type Rows<const K: usize, const N: usize> = BTreeMap<[String; K], [Op
 
 /// The columns of a table: those whose texts name a row, and those with numbers.
 pub(crate) struct Table<const K: usize, const N: usize> {
-    /// The columns of the name.
     pub(crate) name: [&'static str; K],
-    /// The columns of numbers.
     pub(crate) numbers: [(&'static str, Kind); N],
 }
 

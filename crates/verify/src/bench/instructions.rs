@@ -161,7 +161,6 @@ fn tosses(name: &str) -> usize {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Instructions(BTreeMap<String, f64>);
 
-/// The columns of the baseline.
 const COLUMNS: Table<1, 1> = Table { name: ["work"], numbers: [("instructions", Kind::Number)] };
 
 impl Instructions {

@@ -18,7 +18,6 @@ pub(super) struct Reference {
     process: Child,
     questions: ChildStdin,
     answers: BufReader<ChildStdout>,
-    /// The compiler's flags.
     pub(super) flags: String,
     /// cos θ of each toss, as it computed them.
     pub(super) cos_tilts: Vec<f64>,

@@ -37,13 +37,11 @@ impl Columns {
         Batch::new(self.tosses()).on(level)
     }
 
-    /// The tosses one by one.
     pub(super) fn each(&self) -> Vec<Toss> {
         let tosses = self.tosses();
         (0..tosses.len()).map(|index| tosses.toss(index).expect("a valid toss")).collect()
     }
 
-    /// The same launches of a body.
     pub(super) fn each_of(&self, body: Body) -> Vec<Toss> {
         self.each().into_iter().map(|toss| Toss { body, launch: toss.launch }).collect()
     }

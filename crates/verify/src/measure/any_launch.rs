@@ -28,7 +28,6 @@ pub(crate) fn tosses(number: u64) -> Result<Vec<Toss>, InputError> {
     simple.into_iter().map(Ok).chain(drawn).map(|toss| toss.map(Toss::from)).collect()
 }
 
-/// The solver of `entry` that flies `toss`.
 pub(crate) fn subject(entry: &SolverEntry, scheme: Option<Scheme>, toss: &Toss) -> Result<Subject, InputError> {
     let step = (STEP / toss.launch.turn_rate()).min(f64::MAX);
     let stepping = |scheme: Scheme| by_kind(scheme, TOLERANCE, step);

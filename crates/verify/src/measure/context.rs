@@ -92,9 +92,6 @@ impl<T> Shared<T> {
     }
 
     /// The result for the run of `context`, of which it is a part.
-    ///
-    /// # Errors
-    /// If it can't be made.
     pub fn get(&self, context: &Context) -> anyhow::Result<&T> {
         if let Some(found) = self.found.get() {
             return Ok(found);

@@ -43,7 +43,6 @@ pub(super) struct Answered {
     pub(super) line: String,
 }
 
-/// A running process.
 #[derive(Debug)]
 pub(super) struct Process {
     child: Child,

@@ -58,14 +58,6 @@ impl Claim {
         Ok(Self { error, is_per_radian: false })
     }
 
-    /// An error that grows by this with each radian of the phase φ: `error` times 1 + φ.
-    ///
-    /// # Errors
-    /// As [`Claim::flat`].
-    pub fn per_radian(error: f64) -> Result<Self, InputError> {
-        Ok(Self { is_per_radian: true, ..Self::flat(error)? })
-    }
-
     /// The error that is claimed for `toss`; at most 2, as any answer at all is within.
     fn of(&self, toss: &Toss) -> Result<f64, SolveError> {
         let Phases { largest, growth } = Phases::new(toss)?;

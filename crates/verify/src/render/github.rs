@@ -109,7 +109,6 @@ fn reached(report: &Report) -> String {
     out
 }
 
-/// One line a family.
 fn families(report: &Report) -> String {
     let mut out = "### Families of checks\n\n| | family | rows | worst row | |\n|---|---|---|---|---|\n".to_owned();
     for family in Group::families(&report.rows) {

@@ -34,8 +34,8 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
         "work-precision",
         "Speed against accuracy",
         "Each point is a run at one tolerance or step: the further right, the more \
-      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
-      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
+      accurate; the lower, the cheaper. Each problem has its chart, left in calls, which repeat exactly, and right in time on \
+      this machine. The grey band is the front: no integrator's run is better in both error \
       and work.",
     ),
     (
@@ -55,7 +55,6 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
     ("long-flights", "Long flights", "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s."),
 ];
 
-/// Renders `report` with its `charts`.
 pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
     let page = html! {
         (DOCTYPE)
@@ -233,7 +232,6 @@ fn matrix(atlas: &Atlas) -> Markup {
     }
 }
 
-/// One line for each family.
 fn families(report: &Report) -> Markup {
     html! {
         h2 id="checks" { "Families of checks" }

@@ -17,7 +17,6 @@ use crate::shown::shown;
 /// Name of the suite of what became worse.
 const WORSE: &str = "worse than the baseline";
 
-/// Renders `report`.
 pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
     for block in Group::checks(&report.rows) {

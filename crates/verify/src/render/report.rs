@@ -199,9 +199,6 @@ impl Report {
     }
 
     /// The report as JSON.
-    ///
-    /// # Errors
-    /// Never for plain data.
     pub fn json(&self) -> anyhow::Result<String> {
         Ok(serde_json::to_string_pretty(self)?)
     }

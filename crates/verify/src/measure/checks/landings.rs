@@ -35,7 +35,6 @@ const fn random_allowing(deviation: OfLanding, allowed: fn(&Allowance) -> f64) -
     Measure::Landings { of: |context| context.survey.get(context), deviation, allowed: Allowed::By(allowed) }
 }
 
-/// A deviation on the bodies.
 const fn of_bodies(deviation: OfLanding, allowed: Allowed) -> Measure {
     Measure::Landings { of: |context| context.bodies.get(context), deviation, allowed }
 }

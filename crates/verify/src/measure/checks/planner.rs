@@ -11,17 +11,17 @@ use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::hostile;
-use crate::measure::planner::{Planned, solve_hostile};
+use crate::measure::planner::{Errors, Planned, solve_hostile};
 use crate::measure::trial::Measurement;
 
 pub(super) const CHECKS: &[Check] = &[
-    Check::of_library("plan-delivers", Own(|all| of_random_scenes(all, Planned::error_by_accuracy)))
+    Check::of_library("plan-delivers", Own(|all| of_random_scenes(all, |errors| errors.by_accuracy)))
         .up_to(1.0, "1")
         .claims(
             "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
              largest error divided by that accuracy; it fails above the limit.",
         ),
-    Check::of_library("plan-expects", Own(|all| of_random_scenes(all, Planned::error_by_expected)))
+    Check::of_library("plan-expects", Own(|all| of_random_scenes(all, |errors| errors.by_expected)))
         .up_to(1.0, "1")
         .claims(
             "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
@@ -34,8 +34,8 @@ pub(super) const CHECKS: &[Check] = &[
     ),
 ];
 
-/// What is measured of a scene; `None` if it was refused.
-type Part = fn(&Planned) -> Option<f64>;
+/// What is measured of a scene.
+type Part = fn(Errors) -> f64;
 
 /// The largest `part` over the scenes of each kind, in the order in which the kinds first appear.
 fn of_random_scenes(context: &Context, part: Part) -> anyhow::Result<Vec<Measurement>> {
@@ -52,7 +52,7 @@ fn of_random_scenes(context: &Context, part: Part) -> anyhow::Result<Vec<Measure
 /// The largest `part` over the scenes of a kind, with a remark on all parts.
 fn of_kind(scenes: &[Planned], kind: &str, part: Part, remark: fn(&[f64]) -> String) -> Measurement {
     let of_kind: Vec<&Planned> = scenes.iter().filter(|scene| scene.kind == kind).collect();
-    let answered = of_kind.iter().filter_map(|scene| Some((part(scene)?, &scene.input)));
+    let answered = of_kind.iter().filter_map(|scene| Some((part(scene.errors?), &scene.input)));
     let parts: Vec<f64> = answered.clone().map(|(part, _)| part).collect();
     let (remark, refused) = (remark(&parts), of_kind.len() - parts.len());
     let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -67,11 +67,10 @@ fn hostile_plans(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let planned: Vec<Option<Planned>> = coins.chain(bodies).collect::<anyhow::Result<_>>()?;
     let planned: Vec<Planned> = planned.into_iter().flatten().collect();
     let above = |parts: &[f64]| format!("{} above; ", parts.iter().filter(|part| **part > 1.0).count());
-    let row = |kind| of_kind(&planned, kind, Planned::error_by_accuracy, above);
+    let row = |kind| of_kind(&planned, kind, |errors| errors.by_accuracy, above);
     Ok(KINDS.into_iter().chain([BODIES]).map(row).collect())
 }
 
-/// What is planned.
 const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
 
 /// The kind of a plan of a body with I1 ≠ I2: half want cos θ, half an attitude.

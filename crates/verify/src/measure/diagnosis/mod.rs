@@ -95,7 +95,6 @@ pub struct Example {
 }
 
 impl Asked {
-    /// What the solver of `entry` answers to `toss`.
     fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, toss: &Toss) -> Option<Self> {
         let by = any_launch::subject(entry, scheme, toss).ok()?;
         let landing = by.solver.land(toss);
@@ -160,9 +159,6 @@ impl Asked {
 }
 
 /// The launches of which a diagnosis is made.
-///
-/// # Errors
-/// Never: they are fixed and valid.
 pub fn launches() -> anyhow::Result<Vec<Toss>> {
     Ok(any_launch::tosses(LAUNCHES)?)
 }

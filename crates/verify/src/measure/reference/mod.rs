@@ -184,7 +184,6 @@ impl Reference {
         [0, 1, 2, 3].map(|part| to_f64(&self.attitude[part]))
     }
 
-    /// cos θ, rounded.
     pub(crate) fn rounded_cos_tilt(&self) -> f64 {
         to_f64(&self.cos_tilt())
     }

@@ -30,7 +30,6 @@ pub(crate) struct ReferenceData {
     pub(crate) detest_b5: Detest,
 }
 
-/// A flight with its landing.
 #[derive(Deserialize)]
 pub(crate) struct ReferenceFlight {
     pub(crate) toss: Toss,
@@ -40,7 +39,6 @@ pub(crate) struct ReferenceFlight {
 }
 
 impl ReferenceFlight {
-    /// cos θ at landing.
     pub(crate) fn cos_tilt(&self) -> f64 {
         self.cos_tilt.parse().unwrap_or(f64::NAN)
     }
@@ -53,7 +51,6 @@ pub(crate) struct ReferenceBody {
     landing: BodyLanding,
 }
 
-/// What is published of a landing.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum BodyLanding {
@@ -110,7 +107,6 @@ impl ReferenceData {
     }
 }
 
-/// All reference probabilities.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceProbabilities {

@@ -101,7 +101,6 @@ pub(super) fn work(atlas: &Atlas, palette: &Palette<'_>) -> Result<String, Chart
     Lines { atlas, palette, quantity, with_rounding: false }.svg("calls of the right-hand side", 1e1..1e7)
 }
 
-/// What is drawn.
 struct Lines<'a> {
     atlas: &'a Atlas,
     palette: &'a Palette<'a>,

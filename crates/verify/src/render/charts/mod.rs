@@ -66,7 +66,6 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     }
     if let (Some(sweep), Some(problem)) = (records.sweep.found(), report.ordinary()) {
         charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
-        charts.push(chart("work-precision-all.svg", work::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
