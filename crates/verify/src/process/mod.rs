@@ -119,14 +119,6 @@ impl Program {
         }
     }
 
-    /// The same program, which is judged by this error of cos θ, and asked for no other tolerance.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if the claim is not above 0 and below 1.
-    pub fn with_claim(self, claim: f64) -> Result<Self, InputError> {
-        Claim::flat(claim).map(|claim| self.claiming(claim))
-    }
-
     /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
     #[must_use]
     pub fn claiming(self, claim: Claim) -> Self {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use toss::{Scheme, SolverEntry};
-use verify::process::Program;
+use verify::process::{Claim, Program};
 use verify::{CHECKS, Context, Effort};
 
 use crate::programs::{answering, example, has};
@@ -87,7 +87,10 @@ fn a_solver_that_states_no_error_claims_none() {
     let program = |body: &str| Program::new(answering(body));
     assert_eq!(claims(program("echo $id,$w,$x,$y,$z").entry("program")), 0);
     assert_eq!(claims(program("echo $id,$w,$x,$y,$z,error=1e-3").entry("program")), 1);
-    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").with_claim(1e-3).expect("a claim").entry("program")), 1);
+    assert_eq!(
+        claims(program("echo $id,$w,$x,$y,$z").claiming(Claim::flat(1e-3).expect("a claim")).entry("program")),
+        1
+    );
     let stepper = SolverEntry::from_stepper("stepper", "", &[Scheme::DOP853], |system, _| {
         Ok((system.start(), system.work(1, 0)))
     });

@@ -4,7 +4,7 @@
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Scene, Want};
+use toss::{Scene, Toss, Want};
 
 use crate::measure::case;
 use crate::measure::check::Check;
@@ -12,6 +12,7 @@ use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::hostile;
 use crate::measure::planner::{Errors, Planned, solve_hostile};
+use crate::measure::tosses::one;
 use crate::measure::trial::Measurement;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -79,7 +80,7 @@ const BODIES: &str = "bodies";
 /// Plan number `index`, and its answer.
 fn plan(index: u64) -> anyhow::Result<Planned> {
     let (mut rng, coin) = hostile::planned(index);
-    let kind = KINDS[rng.random_range(0..KINDS.len())];
+    let kind = one(&mut rng, KINDS);
     let toss = coin.into();
     let want = match kind {
         "outcome" => Want::Outcome(toss),
@@ -87,9 +88,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
         "attitude" => Want::Attitude(toss),
         _ => Want::Trace { toss, points: rng.random_range(2..8) },
     };
-    let (by, scene) = asked(want, ["gamma", "euler", "quaternion"][rng.random_range(0..3)], &mut rng);
-    let input = format!("{} # {kind} {by}", case::text(&toss));
-    solve_hostile(kind, &scene, &toss, input)
+    solve_asked(kind, want, &toss, &["gamma", "euler", "quaternion"], &mut rng)
 }
 
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
@@ -97,15 +96,22 @@ fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let (mut rng, toss) = hostile::planned_body(index);
     let Some(toss) = toss.filter(|toss| toss.coin().is_none()) else { return Ok(None) };
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
-    let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
-    let input = format!("{} # {} {by}", case::text(&toss), scene.want.kind().name());
-    solve_hostile(BODIES, &scene, &toss, input).map(Some)
+    solve_asked(BODIES, want, &toss, &["euler", "quaternion"], &mut rng).map(Some)
 }
 
-/// A scene that wants this by the solver, with any scheme and accuracy, and these in words.
-fn asked(want: Want, solver: &str, rng: &mut ChaCha8Rng) -> (String, Scene) {
-    let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
+/// Plans and answers what is wanted of `toss`, by one of the solvers with any scheme and accuracy.
+fn solve_asked(
+    kind: &'static str,
+    want: Want,
+    toss: &Toss,
+    solvers: &[&str],
+    rng: &mut ChaCha8Rng,
+) -> anyhow::Result<Planned> {
+    let solver = solvers[rng.random_range(0..solvers.len())];
+    let scheme = one(rng, [None, Some("dop853"), Some("dopri5")]);
     let accuracy = 10f64.powf(rng.random_range(-11.0..-2.0));
-    let by = format!("to {accuracy:e} by {solver} {}", scheme.unwrap_or("any"));
-    (by, Scene::new(want, accuracy).by(solver, scheme))
+    let scene = Scene::new(want, accuracy).by(solver, scheme);
+    let (wanted, scheme) = (scene.want.kind().name(), scheme.unwrap_or("any"));
+    let input = format!("{} # {wanted} to {accuracy:e} by {solver} {scheme}", case::text(toss));
+    solve_hostile(kind, &scene, toss, input)
 }
