@@ -126,7 +126,6 @@ impl<const K: usize, const N: usize> Table<K, N> {
     }
 }
 
-/// What is wrong with a table as a text, with its line.
 fn in_line(TableError { line, message, .. }: TableError) -> anyhow::Error {
     anyhow!("line {line}: {message}")
 }

@@ -64,7 +64,6 @@ const WORKS: [&str; 24] = [
     "launches/exact-speed",
 ];
 
-/// Does the work called `name` `times` times.
 pub(crate) fn work(name: &str, times: u32) -> anyhow::Result<()> {
     let (work, by) = name.split_once('/').context("a work has a name such as count/avx2")?;
     match work {

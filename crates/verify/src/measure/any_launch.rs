@@ -12,7 +12,6 @@ use super::tosses::{decades, one, stream};
 
 const SEED: u64 = 20_280_229;
 
-/// The tolerance of the solvers that fly them.
 pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// The step of schemes without a tolerance, in units of 1/|ω|.

@@ -104,7 +104,6 @@ pub struct Set {
     deviation: OfToss,
 }
 
-/// Makes the tosses of a set.
 type Tosses = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync>;
 
 type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
@@ -321,7 +320,6 @@ impl Check {
     }
 }
 
-/// One toss, and which subjects it is asked of.
 type One<'a> = (&'a Toss, &'a dyn Fn(&str) -> bool);
 
 /// Whether the deviation of `set` is one of such a body.

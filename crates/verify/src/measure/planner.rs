@@ -29,7 +29,6 @@ const SEED: u64 = 12;
 /// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// What came of one scene.
 #[derive(Debug, Clone)]
 pub(crate) struct Planned {
     /// The scene's kind.
@@ -40,7 +39,6 @@ pub(crate) struct Planned {
     pub input: String,
 }
 
-/// The errors of the answer to a scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Errors {
     /// Divided by the accuracy that was asked for.

@@ -121,7 +121,6 @@ pub fn subjects(
     registry.iter().flat_map(by_scheme).map(subject).collect()
 }
 
-/// The solver that proves what it integrates, at a tolerance.
 pub(crate) fn taylor(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
     let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
     let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;

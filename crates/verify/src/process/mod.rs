@@ -156,7 +156,6 @@ impl Program {
     }
 }
 
-/// A program with its processes.
 #[derive(Debug, Clone)]
 pub(crate) struct Running {
     name: &'static str,
@@ -209,7 +208,6 @@ impl Running {
     }
 }
 
-/// The solver that asks a program.
 struct ByProgram {
     running: Running,
     stepping: Stepping,

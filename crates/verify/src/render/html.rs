@@ -155,7 +155,6 @@ fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
     }
 }
 
-/// What each solver reaches, and at which cost.
 fn reached(report: &Report) -> Markup {
     let (Some((problem, launches)), all) = (report.ordinary(), report.reached()) else { return html! {} };
     let cells = |cost: Option<Cost>| cost.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
@@ -186,7 +185,6 @@ fn reached(report: &Report) -> Markup {
     }
 }
 
-/// The chart of all solvers with the front.
 fn overview(charts: &[Chart]) -> Markup {
     html! {
         @for chart in charts.iter().filter(|chart| chart.file == OVERVIEW) {
@@ -260,7 +258,6 @@ fn anchor(family: &str) -> String {
     family.replace(' ', "-")
 }
 
-/// A family with all its checks and their rows.
 fn in_full(family: &Group<'_>, report: &Report) -> Markup {
     let checks = Group::checks(family.rows.iter().copied());
     html! {

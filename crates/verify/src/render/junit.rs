@@ -60,7 +60,6 @@ fn test_case(row: &Row, diagnoses: &[Diagnosis]) -> TestCase {
     case
 }
 
-/// The failing case for a row that became worse.
 fn worse_case(moved: &Move, rows: &[Row]) -> TestCase {
     let replay = words::replay(moved, rows);
     let mut case = TestCase::new(

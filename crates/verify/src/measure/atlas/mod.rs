@@ -99,7 +99,6 @@ pub fn contestants_at(registry: &[SolverEntry], control: Option<StepControl>) ->
     Ok(contestants)
 }
 
-/// A toss of a hazard.
 struct Place {
     hazard: &'static str,
     distance: f64,

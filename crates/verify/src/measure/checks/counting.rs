@@ -246,7 +246,6 @@ fn tally(
     Ok(numbers)
 }
 
-/// The sum of the differences.
 fn distance(found: [u64; 3], expected: [u64; 3]) -> u64 {
     found.iter().zip(expected).map(|(found, expected)| found.abs_diff(expected)).sum()
 }

@@ -305,7 +305,6 @@ fn mean_errors() -> Vec<Set> {
         .collect()
 }
 
-/// A set of long flights for each family of bodies.
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
     Set::of_families(&FAMILIES, |family, context| launches(family, tries(context.effort) / 20, LONG), deviation)
 }

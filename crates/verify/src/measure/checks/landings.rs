@@ -280,7 +280,6 @@ fn off_the_attitude(Landed { landing, .. }: &Landed<'_>) -> Option<f64> {
     Some((norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs()))
 }
 
-/// The drift of a coin between launch and landing.
 fn drifted(landed: &Landed<'_>, drift: fn(&Toss, &State) -> f64) -> Option<f64> {
     landed.toss.coin().map(|_| drift(landed.toss, &landed.landing.state))
 }

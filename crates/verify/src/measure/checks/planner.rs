@@ -35,7 +35,6 @@ pub(super) const CHECKS: &[Check] = &[
     ),
 ];
 
-/// What is measured of a scene.
 type Part = fn(Errors) -> f64;
 
 /// The largest `part` over the scenes of each kind, in the order in which the kinds first appear.
@@ -77,7 +76,6 @@ const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
 /// The kind of a plan of a body with I1 ≠ I2: half want cos θ, half an attitude.
 const BODIES: &str = "bodies";
 
-/// Plan number `index`, and its answer.
 fn plan(index: u64) -> anyhow::Result<Planned> {
     let (mut rng, coin) = hostile::planned(index);
     let kind = one(&mut rng, KINDS);

@@ -253,7 +253,6 @@ fn all() -> anyhow::Result<Vec<(&'static str, Space)>> {
     Ok(spaces)
 }
 
-/// The space of these rates and speeds.
 fn space(coin: Coin, [x, y, z, speed]: [&str; 4]) -> Result<Space, InputError> {
     Space::parse(coin, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed)])
 }

@@ -324,7 +324,6 @@ fn product(a: &[Big; 4], b: &[Big; 4]) -> [Big; 4] {
     ]
 }
 
-/// The vector Q v Q*.
 fn rotated(q: &[Big; 4], vector: &[Big; 3]) -> [Big; 3] {
     let [w, x, y, z] = q;
     let [a, b, c] = vector.clone();

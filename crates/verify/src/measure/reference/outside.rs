@@ -13,13 +13,11 @@ fn file<T: DeserializeOwned>(text: &str, name: &'static str) -> anyhow::Result<T
     toml::from_str(text).with_context(|| format!("in {name}"))
 }
 
-/// All reference numbers of motions.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceData {
     #[serde(rename = "flight")]
     pub(crate) flights: Vec<ReferenceFlight>,
-    /// Flights of bodies that are no coins.
     #[serde(rename = "body")]
     pub(crate) bodies: Vec<ReferenceBody>,
     /// Tosses up to the time at which their outcome first changes.

@@ -157,7 +157,6 @@ impl Sample {
     }
 }
 
-/// A sample that is to be taken.
 struct Job {
     problem: usize,
     subject: Subject,

@@ -13,7 +13,6 @@ fn sweep() -> Sweep {
     Sweep::new(Registry::standard().entries(), &cheated, Effort::Quick).unwrap()
 }
 
-/// The numbers of an attribute in the elements of `svg` that begin with `tag`.
 fn numbers(svg: &str, tag: &str, attribute: &str) -> Vec<i32> {
     let value = |line: &str| line.split_once(&format!(" {attribute}=\""))?.1.split('"').next()?.parse().ok();
     svg.lines().filter(|line| line.starts_with(tag)).filter_map(value).collect()
