@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -45,10 +46,11 @@ int main() {
         std::istringstream cells(line);
         for (const std::string& name : names) {
             std::getline(cells, cell, ',');
-            q[name] = std::stod(cell);
+            q[name] = std::strtod(cell.c_str(), nullptr);  // std::stod takes no number below 2.2e-308.
         }
         const std::string id = line.substr(0, line.find(','));
-        if (q["time"] > 1e3) {
+        const double rate = std::hypot(q["rate_x"], q["rate_y"], q["rate_z"]);
+        if (rate * q["time"] > 2e3) {
             std::printf("%s,failed,so long a flight would lose its digits\n", id.c_str());
             std::fflush(stdout);
             continue;
@@ -56,7 +58,6 @@ int main() {
         const Coin coin{q["i1"], q["i3"], q["rate_z"]};
         State state{q["w"], q["x"], q["y"], q["z"], q["rate_x"], q["rate_y"]};
         // A step of angle φ is off by about φ^5/120, and a tenth of the tolerance is enough for all of them.
-        const double rate = std::hypot(q["rate_x"], q["rate_y"], q["rate_z"]);
         const double step = std::pow(12 * q["tolerance"], 0.2) / rate;
         const long steps = std::lround(std::ceil(q["time"] / step));
         for (long i = 0; i < steps; ++i) state = coin.step(state, q["time"] / double(steps));

@@ -8,18 +8,12 @@ use std::path::Path;
 use anyhow::Context;
 
 /// Reads the text of the file at `path`. A byte order mark, with which some editors begin a file, is left out.
-///
-/// # Errors
-/// If the file can't be read.
 pub fn read(path: &Path) -> anyhow::Result<String> {
     let failed = || format!("cannot read {}", path.display());
     whole_file::text(std::fs::read(path).with_context(failed)?).with_context(failed)
 }
 
 /// As [`read`]; `None` if nothing has this path. A link to nothing is something, whose text can't be read.
-///
-/// # Errors
-/// If there is something that can't be read.
 pub fn read_if_any(path: &Path) -> anyhow::Result<Option<String>> {
     match path.symlink_metadata() {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
@@ -28,25 +22,16 @@ pub fn read_if_any(path: &Path) -> anyhow::Result<Option<String>> {
 }
 
 /// Prints `text` on standard output; a reader that has gone away is no error.
-///
-/// # Errors
-/// If it can't be written.
 pub fn print(text: &str) -> anyhow::Result<()> {
     printed(whole_file::print(text))
 }
 
 /// The same result with an error that says what could not be written.
-///
-/// # Errors
-/// As `result`.
 pub fn printed(result: std::io::Result<()>) -> anyhow::Result<()> {
     result.context("cannot write standard output")
 }
 
 /// Writes `content` to the file at `path`, and makes its folder if there is none.
-///
-/// # Errors
-/// If the folder can't be made or the file can't be written.
 pub fn write(path: &Path, content: &str) -> anyhow::Result<()> {
     let failed = || format!("cannot write {}", path.display());
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(failed)?;
@@ -54,9 +39,6 @@ pub fn write(path: &Path, content: &str) -> anyhow::Result<()> {
 }
 
 /// Adds `content` to the end of the file at `path`, and makes the file if there is none.
-///
-/// # Errors
-/// If it can't be written.
 pub fn append(path: &Path, content: &str) -> anyhow::Result<()> {
     let open = std::fs::OpenOptions::new().append(true).create(true).open(path);
     open.and_then(|mut file| file.write_all(content.as_bytes()))

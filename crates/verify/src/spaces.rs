@@ -4,7 +4,6 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
 use toss::{Coin, InputError};
 
-/// The box of launches from which the tosses of the benchmarks are.
 pub(crate) fn box_of_launches() -> Result<Space, InputError> {
     Space::parse(Coin::PAPER, &[(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")])
 }

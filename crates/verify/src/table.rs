@@ -14,9 +14,7 @@ pub(crate) type Rows<const K: usize, const N: usize> = BTreeMap<[String; K], [Op
 
 /// The columns of a table: those whose texts name a row, and those with numbers.
 pub(crate) struct Table<const K: usize, const N: usize> {
-    /// The columns of the name.
     pub(crate) name: [&'static str; K],
-    /// The columns of numbers.
     pub(crate) numbers: [(&'static str, Kind); N],
 }
 
@@ -128,7 +126,6 @@ impl<const K: usize, const N: usize> Table<K, N> {
     }
 }
 
-/// What is wrong with a table as a text, with its line.
 fn in_line(TableError { line, message, .. }: TableError) -> anyhow::Error {
     anyhow!("line {line}: {message}")
 }

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::judge::Judge;
 use crate::judge::time::{Timing, limit_s};
+use crate::measure::check::message;
 use crate::{Check, Context, Measurement, Row};
 
 /// How often the watch looks at the time of the check that runs.
@@ -49,9 +50,6 @@ type Sent = std::thread::Result<anyhow::Result<Vec<Measurement>>>;
 /// Runs `checks` with all time limits multiplied by `factor`. `start` is called before each, `end` after it.
 ///
 /// A check that is hopeless is left behind: its thread goes on until the program ends, and no check comes after it.
-///
-/// # Errors
-/// If no thread can be started, or as `end`.
 pub fn run(
     checks: &[&'static Check],
     context: &Arc<Context>,
@@ -76,7 +74,7 @@ pub fn run(
         match result {
             Some(Ok(Ok(measured))) => end(check, timing, End::Measured(measured))?,
             Some(Ok(Err(error))) => end(check, timing, End::Failed(format!("could not measure: {error}")))?,
-            Some(Err(panic)) => end(check, timing, End::Failed(format!("panicked: {}", words(&*panic))))?,
+            Some(Err(panic)) => end(check, timing, End::Failed(format!("panicked: {}", message(&*panic))))?,
             None => {
                 let left = checks.len() - index - 1;
                 let taken = timing.t_wall_s;
@@ -96,12 +94,6 @@ fn measure(checks: &[&'static Check], context: &Context, sender: &Sender<Sent>) 
             return;
         }
     }
-}
-
-/// The message of a panic.
-fn words(panic: &(dyn std::any::Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("without a message")
 }
 
 /// Measures the time of a check from its start.

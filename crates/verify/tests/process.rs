@@ -11,7 +11,7 @@ use toss::{
     Coin, ExactSolver, Landing, Launch, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
     Vector3,
 };
-use verify::process::{Limits, OWN, Program};
+use verify::process::{Claim, Limits, OWN, Program};
 
 use programs::{answering, example, has};
 
@@ -190,14 +190,14 @@ fn bodies_are_asked_for_by_an_option_or_by_the_answer() {
 fn a_claim_is_flat_or_by_the_radian() {
     let land = |claim: &str, time| {
         let program = Program::new(answering("echo $id,$w,$x,$y,$z")).with_limits(SHORT);
-        let claim: verify::process::Claim = claim.parse().unwrap();
+        let claim: Claim = claim.parse().unwrap();
         made(&program.claiming(claim).entry("program")).land(&toss(time)).unwrap().error.unwrap()
     };
     assert_eq!((land("1e-9", 1.0), land("1e-9", 9.0)), (1e-9, 1e-9));
     let phase = dynamics::Phases::new(&toss(9.0)).unwrap().largest;
     assert_eq!(land("1e-12/rad", 9.0), 1e-12 * (1.0 + phase));
     for refused in ["0", "-1", "1", "2", "nan", "inf", "x", "1e-9/m", "/rad", "", "0/rad"] {
-        assert!(refused.parse::<verify::process::Claim>().is_err(), "{refused}");
+        assert!(refused.parse::<Claim>().is_err(), "{refused}");
     }
 }
 
@@ -258,12 +258,12 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
     let own = made(&entry(&answering("echo $id,$w,$x,$y,$z,error=$tolerance,calls=7")));
     let landing = own.land(&toss).unwrap();
     assert_eq!((landing.error, landing.work.rhs_calls), (Some(1e-10), 7));
-    let claims = Program::new(repeats.clone()).with_claim(0.25).unwrap().with_limits(SHORT).entry("program");
+    let claims = Program::new(repeats.clone()).claiming(Claim::flat(0.25).unwrap()).with_limits(SHORT).entry("program");
     assert!(!claims.integrates());
     let claims = made(&claims);
     assert_eq!((claims.land(&toss).unwrap().error, claims.stepping()), (Some(0.25), None));
     for claim in [0.0, -1.0, 1.0, f64::NAN] {
-        assert_eq!(Program::new("true").with_claim(claim).unwrap_err().field(), "claim");
+        assert_eq!(Claim::flat(claim).unwrap_err().field(), "claim");
     }
     // The coin lands as it was launched, so that the body rate is not that of the motion, but its momentum is.
     let landing = solver.land(&toss).unwrap();

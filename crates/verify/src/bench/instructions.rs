@@ -64,7 +64,6 @@ const WORKS: [&str; 24] = [
     "launches/exact-speed",
 ];
 
-/// Does the work called `name` `times` times.
 pub(crate) fn work(name: &str, times: u32) -> anyhow::Result<()> {
     let (work, by) = name.split_once('/').context("a work has a name such as count/avx2")?;
     match work {
@@ -161,7 +160,6 @@ fn tosses(name: &str) -> usize {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Instructions(BTreeMap<String, f64>);
 
-/// The columns of the baseline.
 const COLUMNS: Table<1, 1> = Table { name: ["work"], numbers: [("instructions", Kind::Number)] };
 
 impl Instructions {

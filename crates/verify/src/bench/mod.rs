@@ -29,7 +29,6 @@ pub(crate) struct Table {
     rows: Vec<Row>,
 }
 
-/// The result of one contestant.
 struct Row {
     group: &'static str,
     name: String,

@@ -13,19 +13,15 @@ use anyhow::{Context, ensure};
 
 use super::tosses::{Columns, TOSSES};
 
-/// The running process of the reference.
 pub(super) struct Reference {
     process: Child,
     questions: ChildStdin,
     answers: BufReader<ChildStdout>,
-    /// The compiler's flags.
     pub(super) flags: String,
-    /// cos θ of each toss, as it computed them.
     pub(super) cos_tilts: Vec<f64>,
 }
 
 impl Reference {
-    /// Compiles the program and starts it.
     pub(super) fn start() -> anyhow::Result<Self> {
         let folder = std::env::temp_dir().join(format!("unfair-toss-bench-{}", std::process::id()));
         std::fs::create_dir_all(&folder)?;

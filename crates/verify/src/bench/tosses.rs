@@ -25,25 +25,21 @@ impl Columns {
         self.tosses_of(Coin::PAPER)
     }
 
-    /// The same launches of a coin or a body.
     pub(super) fn tosses_of<B: Copy + Into<Body>>(&self, body: B) -> Tosses<'_, B> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(body, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
         tosses.expect("columns of one length")
     }
 
-    /// The tosses as a batch, to be solved at a SIMD level.
     pub(super) fn batch(&self, level: SimdLevel) -> Batch<'_> {
         Batch::new(self.tosses()).on(level)
     }
 
-    /// The tosses one by one.
     pub(super) fn each(&self) -> Vec<Toss> {
         let tosses = self.tosses();
         (0..tosses.len()).map(|index| tosses.toss(index).expect("a valid toss")).collect()
     }
 
-    /// The same launches of a body.
     pub(super) fn each_of(&self, body: Body) -> Vec<Toss> {
         self.each().into_iter().map(|toss| Toss { body, launch: toss.launch }).collect()
     }

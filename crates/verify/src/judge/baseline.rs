@@ -68,7 +68,6 @@ impl FromIterator<(Key, Entry)> for Baseline {
     }
 }
 
-/// The columns of the file.
 const COLUMNS: Table<2, 2> =
     Table { name: ["check", "subject"], numbers: [("error", Kind::Number), ("calls", Kind::CountIfAny)] };
 

@@ -44,18 +44,12 @@ impl Limits {
     }
 
     /// Reads the table at `path`; empty if there is no such file.
-    ///
-    /// # Errors
-    /// As [`Limits::read`].
     pub fn read_if_any(path: &Path) -> anyhow::Result<Self> {
         let Some(text) = files::read_if_any(path)? else { return Ok(Self(BTreeMap::new())) };
         Self::parse(&text).with_context(|| format!("in {}", path.display()))
     }
 
     /// The limits of the solvers and libraries of this workspace.
-    ///
-    /// # Errors
-    /// Never: tests read them.
     pub fn of_this_workspace() -> anyhow::Result<Self> {
         Self::parse(include_str!("../../data/limits.toml"))
     }
@@ -74,9 +68,6 @@ impl Limits {
     }
 
     /// Reads the table from its text.
-    ///
-    /// # Errors
-    /// As [`Limits::read`].
     pub fn parse(text: &str) -> anyhow::Result<Self> {
         let limits: Self = toml::from_str(text).map_err(|error| {
             match dynamics::Error::in_text(text, error.span().map(|span| span.start), error.message().to_owned()) {

@@ -24,9 +24,6 @@ pub struct Record {
 }
 
 /// Writes the record of a run into `folder`/DATE.
-///
-/// # Errors
-/// If a file can't be written.
 pub fn write(folder: &Path, host: &Host, accuracy: &Baseline, sweep: &Sweep) -> anyhow::Result<()> {
     let folder = folder.join(&host.date);
     let lines: Result<Vec<String>, _> = sweep.samples.iter().map(serde_json::to_string).collect();

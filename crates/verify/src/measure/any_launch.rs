@@ -12,7 +12,6 @@ use super::tosses::{decades, one, stream};
 
 const SEED: u64 = 20_280_229;
 
-/// The tolerance of the solvers that fly them.
 pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// The step of schemes without a tolerance, in units of 1/|ω|.
@@ -28,7 +27,6 @@ pub(crate) fn tosses(number: u64) -> Result<Vec<Toss>, InputError> {
     simple.into_iter().map(Ok).chain(drawn).map(|toss| toss.map(Toss::from)).collect()
 }
 
-/// The solver of `entry` that flies `toss`.
 pub(crate) fn subject(entry: &SolverEntry, scheme: Option<Scheme>, toss: &Toss) -> Result<Subject, InputError> {
     let step = (STEP / toss.launch.turn_rate()).min(f64::MAX);
     let stepping = |scheme: Scheme| by_kind(scheme, TOLERANCE, step);

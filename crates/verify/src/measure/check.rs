@@ -2,6 +2,7 @@
 //! data: a deviation of one toss, the tosses on which it is taken, and how the deviations become one number. What does not
 //! fit that has a function of its own.
 
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use dynamics::Toss;
@@ -103,10 +104,8 @@ pub struct Set {
     deviation: OfToss,
 }
 
-/// Makes the tosses of a set.
 type Tosses = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync>;
 
-/// A deviation of a toss.
 type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
 
 impl Set {
@@ -166,11 +165,15 @@ impl Set {
 /// the run.
 pub(super) fn guarded(measure: impl FnOnce() -> Deviation) -> Deviation {
     catch_unwind(AssertUnwindSafe(measure)).unwrap_or_else(|payload| {
-        let text = payload.downcast_ref::<String>().cloned();
-        let text = text.or_else(|| payload.downcast_ref::<&str>().map(|text| (*text).to_owned()));
-        let text = text.unwrap_or_else(|| "without a message".to_owned());
+        let text = message(&*payload);
         Err(SolveError::failed("the library", std::io::Error::other(format!("it panicked: {text}"))))
     })
+}
+
+/// The message of a panic.
+pub(crate) fn message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("without a message")
 }
 
 /// A landing beside the exact one.
@@ -265,18 +268,12 @@ impl Check {
     }
 
     /// Measures every row.
-    ///
-    /// # Errors
-    /// If what is measured can't be made.
     pub fn measure(&self, context: &Context) -> anyhow::Result<Vec<Measurement>> {
         self.rows(self.measure, context, None)
     }
 
     /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses,
     /// or not of such a body, have none.
-    ///
-    /// # Errors
-    /// If there is no reference of the toss.
     pub fn again(
         &self,
         context: &Context,
@@ -323,7 +320,6 @@ impl Check {
     }
 }
 
-/// One toss, and which subjects it is asked of.
 type One<'a> = (&'a Toss, &'a dyn Fn(&str) -> bool);
 
 /// Whether the deviation of `set` is one of such a body.

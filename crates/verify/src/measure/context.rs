@@ -41,7 +41,6 @@ pub struct Context {
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
     pub(crate) data: ReferenceData,
-    /// Reference probabilities from outside the workspace.
     pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
     pub(crate) coins: Vec<ReferenceCoin>,
@@ -69,7 +68,6 @@ pub struct Context {
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
-    /// Random scenes, solved as planned.
     pub(crate) scenes: Shared<Vec<Planned>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
@@ -92,9 +90,6 @@ impl<T> Shared<T> {
     }
 
     /// The result for the run of `context`, of which it is a part.
-    ///
-    /// # Errors
-    /// If it can't be made.
     pub fn get(&self, context: &Context) -> anyhow::Result<&T> {
         if let Some(found) = self.found.get() {
             return Ok(found);

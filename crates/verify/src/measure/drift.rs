@@ -9,7 +9,6 @@
 use dynamics::Toss;
 use toss::{State, Vector3};
 
-/// The states at launch and at landing.
 fn both<T>(toss: &Toss, landing: &State, of: impl Fn(&State) -> T) -> [T; 2] {
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     [of(&launch), of(landing)]

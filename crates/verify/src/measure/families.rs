@@ -238,7 +238,6 @@ pub(super) fn hard_number(effort: Effort) -> u64 {
     effort.of([12, 60, 1500])
 }
 
-/// The tosses of each hard family.
 pub(super) fn hard_tosses(effort: Effort) -> Vec<Vec<Toss>> {
     HARD.iter().map(|family| hard_tosses_of(family, hard_number(effort))).collect()
 }

@@ -26,10 +26,8 @@ const STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 /// The longest flight (rad).
 const LONGEST: f64 = 1e6;
 
-/// A flight of any body, and who flies it.
 pub(super) struct Flight {
     pub(super) toss: Toss,
-    /// The solver with its settings.
     pub(super) by: Subject,
 }
 

@@ -50,9 +50,6 @@ pub struct LongFlights(pub Vec<LongFlight>);
 
 impl LongFlights {
     /// Solves all flights with every solver of `registry`, each integrator by every scheme.
-    ///
-    /// # Errors
-    /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
         let subjects = subjects(registry, |scheme| by_kind(scheme, Stepping::DEFAULT_TOLERANCE, STEP))?;
         let flights: Vec<(&Subject, f64)> =

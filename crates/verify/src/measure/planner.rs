@@ -24,50 +24,29 @@ use crate::measure::context::Context;
 use crate::measure::reference::Reference;
 use crate::measure::tosses::{decades, level_or_tilted, stream, tossed};
 
-/// Seed of the scenes.
 const SEED: u64 = 12;
 
 /// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// What came of one scene.
 #[derive(Debug, Clone)]
 pub(crate) struct Planned {
     /// The scene's kind.
     pub kind: &'static str,
-    /// The accuracy that was asked for.
-    accuracy: f64,
     /// `None` if the scene was refused because no setting is accurate enough, or the integrator does not solve its toss.
-    pub answered: Option<Answered>,
+    pub errors: Option<Errors>,
     /// The scene in words, its toss as text.
     pub input: String,
 }
 
-/// The errors of the answer to a scene.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Answered {
-    error: f64,
-    /// The largest error of the model on the scene's family: its toss and, if the error there is far below the
-    /// expected one, some similar tosses. The error on a single toss may be small by luck.
-    error_of_family: f64,
-    /// The error that the plan expected.
-    expected: f64,
-}
-
-impl Planned {
-    /// The error divided by the accuracy that was asked for.
-    pub(crate) fn error_by_accuracy(&self) -> Option<f64> {
-        self.answered.map(|answered| answered.error / self.accuracy)
-    }
-
-    /// The largest error on the scene's family divided by the expected one, which counts as at least [`ROUNDING`]; 0 if
-    /// there is no error.
-    pub(crate) fn error_by_expected(&self) -> Option<f64> {
-        self.answered.map(|Answered { error_of_family, expected, .. }| match error_of_family {
-            0.0 => 0.0,
-            error => error / expected.max(ROUNDING),
-        })
-    }
+pub(crate) struct Errors {
+    /// Divided by the accuracy that was asked for.
+    pub by_accuracy: f64,
+    /// The largest on the scene's toss and, if the error there is far below the expected one, on some similar tosses,
+    /// because the error on a single toss may be small by luck. It is divided by the error that the plan expected, which
+    /// counts as at least [`ROUNDING`].
+    pub by_expected: f64,
 }
 
 /// Solves a number of random scenes that depends on the effort.
@@ -90,10 +69,9 @@ fn unless_refused<T>(found: Result<T, Error>) -> Result<Option<T>, Error> {
     }
 }
 
-/// Solves the scene as planned.
 fn solve(TossScene { kind, scene, toss }: &TossScene) -> anyhow::Result<Planned> {
-    let (accuracy, input) = (scene.accuracy, input(scene, &case::text(&(*toss).into())));
-    let planned = |answered| Planned { kind, accuracy, answered, input };
+    let input = input(scene, &case::text(&(*toss).into()));
+    let planned = |errors| Planned { kind, errors, input };
     let Some(plan) = unless_refused(scene.plan())? else { return Ok(planned(None)) };
     let (choice, solution) = (plan.choice, scene.solve()?);
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
@@ -102,17 +80,18 @@ fn solve(TossScene { kind, scene, toss }: &TossScene) -> anyhow::Result<Planned>
     let is_far_below = expected > 30.0 * error.max(ROUNDING);
     let error_of_family =
         if is_far_below { error.max(largest_of_neighbours(&choice, scene, toss)?.unwrap_or(0.0)) } else { error };
-    Ok(planned(Some(Answered { error, error_of_family, expected })))
+    let by_expected = error_of_family / expected.max(ROUNDING);
+    Ok(planned(Some(Errors { by_accuracy: error / scene.accuracy, by_expected })))
 }
 
 /// Solves a scene about `toss` that is hostile to integrators, of which the expected error is not asked.
 pub(super) fn solve_hostile(kind: &'static str, scene: &Scene, toss: &Toss, input: String) -> anyhow::Result<Planned> {
     let answer = unless_refused(scene.plan().and_then(|plan| plan.choice.run(scene)))?;
-    let answered = |answer: Answer| {
-        let error = Truth::new(toss)?.error(scene, &answer)?;
-        anyhow::Ok(Answered { error, error_of_family: f64::NAN, expected: f64::NAN })
+    let errors = |answer: Answer| {
+        let by_accuracy = Truth::new(toss)?.error(scene, &answer)? / scene.accuracy;
+        anyhow::Ok(Errors { by_accuracy, by_expected: f64::NAN })
     };
-    Ok(Planned { kind, accuracy: scene.accuracy, answered: answer.map(answered).transpose()?, input })
+    Ok(Planned { kind, errors: answer.map(errors).transpose()?, input })
 }
 
 /// The scene in words; `of` names its toss or space.
@@ -122,7 +101,6 @@ fn input(scene: &Scene, of: &str) -> String {
     format!("{of} # {wanted} to {:e}{by}", scene.accuracy)
 }
 
-/// Samples a space as planned.
 fn solve_space(index: u64) -> anyhow::Result<Planned> {
     const POINTS: u64 = 1 << 20;
     let space = space(SEED, index)?;
@@ -130,9 +108,9 @@ fn solve_space(index: u64) -> anyhow::Result<Planned> {
     let choice = scene.plan()?.choice;
     let Answer::Probability(estimate) = choice.run(&scene)? else { bail!("a probability was planned") };
     let error = (estimate.probability - true_probability(&space, POINTS)?).abs();
-    let answered = Some(Answered { error, error_of_family: error, expected: choice.expected_error });
-    let input = input(&scene, &format!("space {index} of seed {SEED}"));
-    Ok(Planned { kind: "probability", accuracy: scene.accuracy, answered, input })
+    let by_expected = error / choice.expected_error.max(ROUNDING);
+    let errors = Some(Errors { by_accuracy: error / scene.accuracy, by_expected });
+    Ok(Planned { kind: "probability", errors, input: input(&scene, &format!("space {index} of seed {SEED}")) })
 }
 
 /// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one.
@@ -148,13 +126,10 @@ fn largest_of_neighbours(choice: &Choice, scene: &Scene, toss: &CoinToss) -> any
     Ok(Some(largest))
 }
 
-/// A scene about a toss.
 struct TossScene {
     /// Its kind: what is wanted, or `integrator` if the scene asks for one.
     kind: &'static str,
-    /// The scene.
     scene: Scene,
-    /// Its toss.
     toss: CoinToss,
 }
 
@@ -252,7 +227,6 @@ struct Truth {
 }
 
 impl Truth {
-    /// Solves `toss`.
     fn new(toss: &Toss) -> Result<Self, SolveError> {
         Ok(Self { landing: Reference::of(toss)?, toss: *toss })
     }

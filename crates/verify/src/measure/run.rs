@@ -60,9 +60,6 @@ impl Allowance {
     }
 
     /// As [`Allowance::new`], by a flight of its own.
-    ///
-    /// # Errors
-    /// As [`Solver::tilt`](toss::Solver::tilt).
     pub fn of(subject: &Subject, toss: &Toss) -> Result<Option<Self>, SolveError> {
         Ok(Self::new(subject, toss, subject.solver.tilt(toss)?.error))
     }

@@ -89,17 +89,11 @@ impl Solver for NotMade {
 }
 
 /// `scheme` with the tight tolerance or step of the verification.
-///
-/// # Errors
-/// Never for a scheme that takes a tolerance or steps.
 pub fn tight(scheme: Scheme) -> Result<Stepping, InputError> {
     by_kind(scheme, TIGHT_TOLERANCE, TIGHT_STEP)
 }
 
 /// `scheme` with the library's default tolerance or step.
-///
-/// # Errors
-/// As [`tight`].
 pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
     by_kind(scheme, Stepping::DEFAULT_TOLERANCE, Stepping::DEFAULT_STEP)
 }
@@ -117,9 +111,6 @@ pub(crate) fn by_scheme(entry: &SolverEntry) -> impl Iterator<Item = (&SolverEnt
 }
 
 /// Every solver of `registry`, each integrator with every one of its schemes, set up by `stepping`.
-///
-/// # Errors
-/// If `stepping` returns one.
 pub fn subjects(
     registry: &[SolverEntry],
     stepping: fn(Scheme) -> Result<Stepping, InputError>,
@@ -130,7 +121,6 @@ pub fn subjects(
     registry.iter().flat_map(by_scheme).map(subject).collect()
 }
 
-/// The solver that proves what it integrates, at a tolerance.
 pub(crate) fn taylor(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
     let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
     let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;

@@ -41,9 +41,6 @@ pub type Landings = Vec<Result<Landing, SolveError>>;
 
 impl Survey {
     /// Solves `launches` random launches with every subject.
-    ///
-    /// # Errors
-    /// Never: the space of launches is fixed and valid.
     pub fn random(subjects: &[Subject], launches: u64) -> anyhow::Result<Self> {
         Ok(Self::of(subjects, random_launches(launches)?, Vec::new(), &ExactLandings::default()))
     }

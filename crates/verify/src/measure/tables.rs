@@ -17,9 +17,6 @@ const METHODS: [(&str, Plan); 4] = [
 
 /// Estimates every named space by every method with the exact motion: the name of the space, that of the method, and what
 /// it found.
-///
-/// # Errors
-/// Never for the named spaces.
 pub fn tables() -> anyhow::Result<Vec<(&'static str, &'static str, Estimate)>> {
     let mut lines = Vec::new();
     for (space, named) in named_spaces() {
@@ -31,9 +28,6 @@ pub fn tables() -> anyhow::Result<Vec<(&'static str, &'static str, Estimate)>> {
 }
 
 /// The running shares of heads in Fig. 4's space, for a check and a chart.
-///
-/// # Errors
-/// Never for the named space.
 pub fn fig4() -> anyhow::Result<Vec<RunningStep>> {
     const STEPS: u64 = 250;
     Ok(Sampler::exact().running_shares(&named_space("paper-fig4")?, STEPS, SEED)?)

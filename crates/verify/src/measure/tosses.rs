@@ -29,7 +29,7 @@ pub(super) fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
 }
 
 /// One of `values`, each equally likely.
-pub(super) fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
+pub(super) fn one<T: Copy, const N: usize>(rng: &mut ChaCha8Rng, values: [T; N]) -> T {
     values[rng.random_range(0..N)]
 }
 

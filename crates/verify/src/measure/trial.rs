@@ -305,7 +305,6 @@ mod tests {
     use super::*;
     use crate::measure::adversary;
 
-    /// Trials of one subject, each on a toss of its own.
     fn trials(by: &Subject, found: impl IntoIterator<Item = (Deviation, Option<f64>)>) -> Vec<Trial<'_>> {
         let trial = |(index, (deviation, allowed)): (usize, (Deviation, _))| {
             Trial::by(by, &adversary::launch(3, index), deviation.map(|deviation| (deviation, allowed)))

@@ -37,13 +37,11 @@ impl From<String> for Fault {
     }
 }
 
-/// An answer, and the line that it was read from.
 pub(super) struct Answered {
     pub(super) reply: Reply,
     pub(super) line: String,
 }
 
-/// A running process.
 #[derive(Debug)]
 pub(super) struct Process {
     child: Child,
@@ -75,7 +73,6 @@ impl Process {
         Ok(process)
     }
 
-    /// The number of its next question.
     pub(super) fn next(&self) -> u64 {
         self.asked + 1
     }
@@ -228,7 +225,6 @@ fn unasked(line: &str) -> String {
     format!("wrote {:?} without being asked (standard output is for answers alone)", beginning(line))
 }
 
-/// The first characters of a line.
 fn beginning(line: &str) -> String {
     const SHOWN: usize = 120;
     let line = line.trim_end();

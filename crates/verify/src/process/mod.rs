@@ -58,14 +58,6 @@ impl Claim {
         Ok(Self { error, is_per_radian: false })
     }
 
-    /// An error that grows by this with each radian of the phase φ: `error` times 1 + φ.
-    ///
-    /// # Errors
-    /// As [`Claim::flat`].
-    pub fn per_radian(error: f64) -> Result<Self, InputError> {
-        Ok(Self { is_per_radian: true, ..Self::flat(error)? })
-    }
-
     /// The error that is claimed for `toss`; at most 2, as any answer at all is within.
     fn of(&self, toss: &Toss) -> Result<f64, SolveError> {
         let Phases { largest, growth } = Phases::new(toss)?;
@@ -127,14 +119,6 @@ impl Program {
         }
     }
 
-    /// The same program, which is judged by this error of cos θ, and asked for no other tolerance.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] if the claim is not above 0 and below 1.
-    pub fn with_claim(self, claim: f64) -> Result<Self, InputError> {
-        Claim::flat(claim).map(|claim| self.claiming(claim))
-    }
-
     /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
     #[must_use]
     pub fn claiming(self, claim: Claim) -> Self {
@@ -172,7 +156,6 @@ impl Program {
     }
 }
 
-/// A program with its processes.
 #[derive(Debug, Clone)]
 pub(crate) struct Running {
     name: &'static str,
@@ -225,7 +208,6 @@ impl Running {
     }
 }
 
-/// The solver that asks a program.
 struct ByProgram {
     running: Running,
     stepping: Stepping,

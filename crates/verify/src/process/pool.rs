@@ -15,7 +15,6 @@ use crate::measure::diagnosis::GIVEN_UP;
 /// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
 const LOSSES: u32 = 6;
 
-/// The processes of a program.
 #[derive(Debug)]
 pub(super) struct Pool {
     command: String,
@@ -51,7 +50,6 @@ struct Late {
 
 #[derive(Debug, Default)]
 struct State {
-    /// The processes that wait for a question.
     idle: Vec<Process>,
     /// Whether its answers have the field `error`; `None` before the first answer.
     gives_errors: Option<bool>,

@@ -27,12 +27,10 @@ const FINEST: f64 = 1e-13;
 /// What a program answered: a landing, or that it has none, in its own words.
 pub(super) type Reply = Result<Landed, String>;
 
-/// A landing, as it was answered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Landed {
     /// (w, x, y, z).
     pub(super) quaternion: [f64; 4],
-    /// The body rate.
     pub(super) rate: Option<[f64; 3]>,
     /// The error of cos θ that the program claims.
     pub(super) error: Option<f64>,
@@ -151,7 +149,6 @@ fn moments_and_axes(body: &Body) -> ([f64; 3], Option<Attitude>) {
     (scaled(body.principal_moments()), Some(turn))
 }
 
-/// The question number `number` as a line.
 pub(super) fn numbered(number: u64, question: &str) -> String {
     format!("{number},{question}")
 }

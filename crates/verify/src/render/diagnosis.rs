@@ -17,13 +17,17 @@ pub(crate) fn paragraph(report: &Report) -> String {
 }
 
 fn of_one(found: &Diagnosis) -> String {
-    let Diagnosis { subject, cause, explains_all, .. } = found;
-    let sentence = format!("{subject}: {cause}.\n");
-    if *explains_all {
-        sentence
+    let sentence = sentence(found);
+    if found.explains_all {
+        format!("{sentence}\n")
     } else {
-        format!("{sentence}The smallest question that fails:\n{}", example(&found.example))
+        format!("{sentence}\nThe smallest question that fails:\n{}", example(&found.example))
     }
+}
+
+/// The solver with its likeliest cause.
+pub(super) fn sentence(found: &Diagnosis) -> String {
+    format!("{}: {}.", found.subject, found.cause)
 }
 
 /// The lines of a question and its answer, with what was expected.

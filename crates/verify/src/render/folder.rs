@@ -10,9 +10,6 @@ use crate::files;
 impl Report {
     /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
     /// `folder`.
-    ///
-    /// # Errors
-    /// If a file can't be written.
     pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
         let charts = charts::charts(self)?;
         for (file, text) in [

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use super::report::{Cost, ENOUGH, Reached, Verdict};
 use super::words::{Group, comparison, reserve, verdict};
-use super::{Report, words};
+use super::{Report, diagnosis, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
 
@@ -69,7 +69,9 @@ pub(crate) fn summary(report: &Report) -> String {
         Verdict::Fail => "❌ FAIL",
     };
     let mut out = format!("## {verdict}: {} of {} rows pass\n\n", report.rows.len() - failing.len(), report.rows.len());
-    let _ = writeln!(out, "{}\n", cell(&report.pattern));
+    for words in report.diagnoses.iter().map(diagnosis::sentence).chain([report.pattern.clone()]) {
+        let _ = writeln!(out, "{}\n", cell(&words));
+    }
     let facts: Vec<String> =
         report.facts().into_iter().map(|(name, value)| format!("{name} {}", cell(&value))).collect();
     let _ = writeln!(out, "{}. {}\n", facts.join(" · "), report.baseline.words(&report.moves));
@@ -107,7 +109,6 @@ fn reached(report: &Report) -> String {
     out
 }
 
-/// One line a family.
 fn families(report: &Report) -> String {
     let mut out = "### Families of checks\n\n| | family | rows | worst row | |\n|---|---|---|---|---|\n".to_owned();
     for family in Group::families(&report.rows) {

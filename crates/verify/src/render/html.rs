@@ -12,9 +12,9 @@ use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::run::Answer;
 use crate::measure::work_precision::YARDSTICK;
-use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
 use crate::render::report::{Cost, ENOUGH, Reached, Verdict};
+use crate::render::{Report, diagnosis};
 
 const STYLE: &str = include_str!("report.css");
 
@@ -34,8 +34,8 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
         "work-precision",
         "Speed against accuracy",
         "Each point is a run at one tolerance or step: the further right, the more \
-      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
-      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
+      accurate; the lower, the cheaper. Each problem has its chart, left in calls, which repeat exactly, and right in time on \
+      this machine. The grey band is the front: no integrator's run is better in both error \
       and work.",
     ),
     (
@@ -55,7 +55,6 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
     ("long-flights", "Long flights", "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s."),
 ];
 
-/// Renders `report` with its `charts`.
 pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
     let page = html! {
         (DOCTYPE)
@@ -96,6 +95,7 @@ fn answer(report: &Report) -> Markup {
     html! {
         h1 { "unfair-toss: verification" }
         p class={ "verdict " (class) } { b { (word) } " " span { (report.sentence()) } }
+        @if !report.diagnoses.is_empty() { p.lines { (diagnosis::paragraph(report)) } }
         @if !report.passed { p { (report.pattern) } }
         dl.facts {
             @for (name, value) in report.facts() { div { dt { (name) } dd { (value) } } }
@@ -155,7 +155,6 @@ fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
     }
 }
 
-/// What each solver reaches, and at which cost.
 fn reached(report: &Report) -> Markup {
     let (Some((problem, launches)), all) = (report.ordinary(), report.reached()) else { return html! {} };
     let cells = |cost: Option<Cost>| cost.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
@@ -186,7 +185,6 @@ fn reached(report: &Report) -> Markup {
     }
 }
 
-/// The chart of all solvers with the front.
 fn overview(charts: &[Chart]) -> Markup {
     html! {
         @for chart in charts.iter().filter(|chart| chart.file == OVERVIEW) {
@@ -232,7 +230,6 @@ fn matrix(atlas: &Atlas) -> Markup {
     }
 }
 
-/// One line for each family.
 fn families(report: &Report) -> Markup {
     html! {
         h2 id="checks" { "Families of checks" }
@@ -261,7 +258,6 @@ fn anchor(family: &str) -> String {
     family.replace(' ', "-")
 }
 
-/// A family with all its checks and their rows.
 fn in_full(family: &Group<'_>, report: &Report) -> Markup {
     let checks = Group::checks(family.rows.iter().copied());
     html! {

@@ -7,15 +7,16 @@ use std::time::Duration;
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
 use super::words::{Group, comparison, reserve, verdict};
-use super::{Report, words};
+use super::{Report, diagnosis, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
+use crate::measure::diagnosis::Diagnosis;
+use crate::measure::trial::Judges;
 use crate::shown::shown;
 
 /// Name of the suite of what became worse.
 const WORSE: &str = "worse than the baseline";
 
-/// Renders `report`.
 pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
     for block in Group::checks(&report.rows) {
@@ -24,7 +25,7 @@ pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
         if let Some(time) = timing.and_then(|timing| Duration::try_from_secs_f64(timing.t_wall_s).ok()) {
             suite.set_time(time);
         }
-        suite.add_test_cases(block.rows.iter().map(|row| test_case(row)));
+        suite.add_test_cases(block.rows.iter().map(|row| test_case(row, &report.diagnoses)));
         junit.add_test_suite(suite);
     }
     let worse = report.worse();
@@ -38,12 +39,14 @@ pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     Ok(seen(&junit.to_string()?))
 }
 
-fn test_case(row: &Row) -> TestCase {
+fn test_case(row: &Row, diagnoses: &[Diagnosis]) -> TestCase {
     let status = if row.status.passes() {
         TestCaseStatus::success()
     } else {
         let message = format!("{}: {} ({})", verdict(row), comparison(row), reserve(row));
-        let detail = [&row.failure, &row.worst_input, &row.replay];
+        let of_row = |found: &&Diagnosis| found.subject == row.subject && row.judges == Some(Judges::Solver);
+        let cause = diagnoses.iter().find(of_row).map(diagnosis::sentence);
+        let detail = [&row.failure, &cause, &row.worst_input, &row.replay];
         failure(message, &detail.into_iter().flatten().map(String::as_str).collect::<Vec<_>>())
     };
     let mut case = TestCase::new(row.subject.as_str(), status);
@@ -57,7 +60,6 @@ fn test_case(row: &Row) -> TestCase {
     case
 }
 
-/// The failing case for a row that became worse.
 fn worse_case(moved: &Move, rows: &[Row]) -> TestCase {
     let replay = words::replay(moved, rows);
     let mut case = TestCase::new(

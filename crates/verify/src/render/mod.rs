@@ -22,7 +22,6 @@ mod tests {
     pub(super) use crate::judge::tests::row;
     use crate::measure::check::Judges;
 
-    /// The same about the library.
     pub(super) fn library(check: &str, subject: &str, measured: f64, limit: f64) -> Row {
         Row { judges: Some(Judges::Library), ..row(check, subject, measured, limit) }
     }

@@ -94,11 +94,9 @@ impl<'a> Item<'a> {
     }
 }
 
-/// The rows, sorted by what they judge.
 struct SortedRows<'a> {
     /// Rows about one solver.
     solvers: Vec<&'a Item<'a>>,
-    /// Those of them that are bad.
     bad: Vec<&'a Item<'a>>,
     /// Rows that compare two solvers. They say that one of the two is wrong, but not which.
     comparisons: Vec<&'a Item<'a>>,
@@ -199,15 +197,12 @@ impl<'a> SortedRows<'a> {
     }
 }
 
-/// A name of an item, if it has one.
 type Key<'a> = fn(&Item<'a>) -> Option<&'a str>;
 
-/// The names that `key` gives to `items`.
 fn names<'a>(items: &[&Item<'a>], key: Key<'a>) -> BTreeSet<&'a str> {
     items.iter().filter_map(|item| key(item)).collect()
 }
 
-/// Those of `items` that are bad.
 fn bad<'a>(items: &[&'a Item<'a>]) -> Vec<&'a Item<'a>> {
     items.iter().copied().filter(|item| item.bad).collect()
 }

@@ -110,7 +110,6 @@ impl Compared {
 /// What one solver reaches on a problem, and at which cost, per launch.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reached {
-    /// The solver with its scheme.
     pub(super) subject: String,
     /// Its run with the smallest error.
     pub(super) finest: Cost,
@@ -118,7 +117,6 @@ pub(super) struct Reached {
     pub(super) enough: Option<Cost>,
 }
 
-/// The error and the cost of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// The largest error of the attitude over the launches (rad).
@@ -199,9 +197,6 @@ impl Report {
     }
 
     /// The report as JSON.
-    ///
-    /// # Errors
-    /// Never for plain data.
     pub fn json(&self) -> anyhow::Result<String> {
         Ok(serde_json::to_string_pretty(self)?)
     }
@@ -239,7 +234,6 @@ impl Report {
         failing
     }
 
-    /// What became worse than the baseline.
     pub(super) fn worse(&self) -> Vec<&Move> {
         self.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect()
     }

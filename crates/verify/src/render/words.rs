@@ -27,7 +27,6 @@ pub(super) fn comparison(row: &Row) -> String {
     format!("{} {} {} {unit}", measured(row), relation(row), number(row.limit)).trim_end().to_owned()
 }
 
-/// What was measured, or that the subject failed.
 pub(super) fn measured(row: &Row) -> String {
     if row.failure.is_some() && row.measured.is_none() { "failed".to_owned() } else { number(row.measured) }
 }
@@ -132,7 +131,6 @@ impl<'a> Group<'a> {
         self.rows[0]
     }
 
-    /// The number of rows that fail.
     pub(super) fn failing(&self) -> usize {
         self.rows.iter().filter(|row| !row.status.passes()).count()
     }
@@ -198,7 +196,6 @@ pub(crate) fn moves(all: &[Move], rows: &[Row]) -> String {
     out
 }
 
-/// How to repeat a row that became worse.
 fn repeat(moved: &Move, rows: &[Row]) -> String {
     if moved.direction != Direction::Worse {
         return String::new();

@@ -172,7 +172,6 @@ impl Suite {
         self.program.as_ref()
     }
 
-    /// How its program is started.
     pub(crate) fn commands(&self) -> &Commands {
         &self.commands
     }

@@ -35,7 +35,6 @@ impl Suite {
     }
 }
 
-/// The check called `id`.
 pub(crate) fn named(id: &str) -> anyhow::Result<&'static Check> {
     let known = || CHECKS.iter().map(|check| check.id).collect::<Vec<_>>().join(", ");
     CHECKS.iter().find(|check| check.id == id).with_context(|| format!("no such check: '{id}'; known: {}", known()))

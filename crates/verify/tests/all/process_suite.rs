@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use toss::{Scheme, SolverEntry};
-use verify::process::Program;
+use verify::process::{Claim, Program};
 use verify::{CHECKS, Context, Effort};
 
 use crate::programs::{answering, example, has};
@@ -15,9 +15,13 @@ fn verified(arguments: &[&str]) -> (String, Option<i32>) {
 
 /// What `verify run` prints, and its exit code.
 fn verify(arguments: &[&str]) -> (String, Option<i32>) {
-    let out = tempfile::tempdir().expect("a folder");
+    verify_into(arguments, tempfile::tempdir().expect("a folder").path())
+}
+
+/// The same with its reports in the folder `out`.
+fn verify_into(arguments: &[&str], out: &std::path::Path) -> (String, Option<i32>) {
     let mut verify = std::process::Command::new(env!("CARGO_BIN_EXE_verify"));
-    let found = verify.arg("run").args(arguments).arg("--out").arg(out.path());
+    let found = verify.arg("run").args(arguments).arg("--out").arg(out);
     let found = found.output().expect("it starts");
     let text = [found.stdout, found.stderr].concat();
     (String::from_utf8_lossy(&text).into_owned(), found.status.code())
@@ -56,10 +60,14 @@ fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
 #[test]
 fn the_first_lines_name_the_likeliest_cause() {
     let still = answering("echo $id,$w,$x,$y,$z");
-    let (text, code) = verified(&["--command", &still]);
-    let cause =
-        "\ncommand/own: right if nothing moves: it answers the attitude at launch: 1000 of 1000.\nFails: command";
-    assert!(code == Some(1) && text.contains(cause), "{code:?}, {text}");
+    let cause = "command/own: right if nothing moves: it answers the attitude at launch: 1000 of 1000.";
+    let out = tempfile::tempdir().expect("a folder");
+    let (text, code) = verify_into(&["--quick", "--only", "random-cos-tilt", "--command", &still], out.path());
+    assert!(code == Some(1) && text.contains(&format!("\n{cause}\nFails: command")), "{code:?}, {text}");
+    for file in ["report.html", "junit.xml", "summary.md"] {
+        let report = std::fs::read_to_string(out.path().join(file)).expect(file);
+        assert!(report.contains(cause), "{file}: {report}");
+    }
     let toss = "moments=1.0,0.5 rate=1.0,0.0,0.0 time=1.0 tilt=0.0";
     let (text, code) = verify(&["--replay", toss, "--command", &still]);
     let shown = "  id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance,i2\n  \
@@ -79,7 +87,10 @@ fn a_solver_that_states_no_error_claims_none() {
     let program = |body: &str| Program::new(answering(body));
     assert_eq!(claims(program("echo $id,$w,$x,$y,$z").entry("program")), 0);
     assert_eq!(claims(program("echo $id,$w,$x,$y,$z,error=1e-3").entry("program")), 1);
-    assert_eq!(claims(program("echo $id,$w,$x,$y,$z").with_claim(1e-3).expect("a claim").entry("program")), 1);
+    assert_eq!(
+        claims(program("echo $id,$w,$x,$y,$z").claiming(Claim::flat(1e-3).expect("a claim")).entry("program")),
+        1
+    );
     let stepper = SolverEntry::from_stepper("stepper", "", &[Scheme::DOP853], |system, _| {
         Ok((system.start(), system.work(1, 0)))
     });

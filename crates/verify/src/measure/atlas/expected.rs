@@ -45,9 +45,6 @@ pub struct Expected(BTreeMap<String, BTreeMap<String, Expectation>>);
 
 impl Expected {
     /// What the solvers of this workspace are known to do.
-    ///
-    /// # Errors
-    /// Never: tests read it.
     pub fn of_this_workspace() -> anyhow::Result<Self> {
         toml::from_str(include_str!("../../../data/atlas.toml")).context("in atlas.toml")
     }

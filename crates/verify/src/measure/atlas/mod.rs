@@ -44,9 +44,6 @@ pub struct Atlas {
 
 impl Atlas {
     /// Solves every hazard at every distance with every contestant of `registry`.
-    ///
-    /// # Errors
-    /// Never for the library's own solvers and hazards.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
         let contestants = contestants_at(registry, None)?;
         let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
@@ -83,9 +80,6 @@ impl Atlas {
 
 /// Every solver of `registry`, each integrator with every scheme in every formulation that it offers. A scheme takes
 /// `control` if it can, and otherwise the library's default tolerance or step.
-///
-/// # Errors
-/// For a tolerance or a step that is invalid.
 pub fn contestants_at(registry: &[SolverEntry], control: Option<StepControl>) -> Result<Vec<Subject>, InputError> {
     let stepping = |scheme: Scheme| match control {
         Some(StepControl::Tolerance(tolerance)) if scheme.is_adaptive() => Stepping::adaptive(scheme, tolerance),
@@ -105,7 +99,6 @@ pub fn contestants_at(registry: &[SolverEntry], control: Option<StepControl>) ->
     Ok(contestants)
 }
 
-/// A toss of a hazard.
 struct Place {
     hazard: &'static str,
     distance: f64,

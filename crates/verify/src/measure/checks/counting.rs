@@ -58,7 +58,6 @@ fn ranges(axes: &Axes) -> impl Iterator<Item = (Coordinate, String)> {
     axes.iter().map(|(of, lo, hi, points)| (*of, format!("{lo:?}:{hi:?}:{points}")))
 }
 
-/// The space of a grid.
 fn space(axes: &Axes) -> anyhow::Result<Space> {
     let fixed = FIXED.iter().filter(|(of, _)| axes.iter().all(|(varies, ..)| varies != of));
     let fixed = fixed.map(|(of, value)| (*of, format!("{value:?}")));
@@ -232,7 +231,6 @@ fn of_each(counts: &Counts) -> [u64; 3] {
     [counts.heads(), counts.tails(), counts.undecided()]
 }
 
-/// The same of `tosses`, one by one.
 fn tally(
     tosses: impl IntoIterator<Item = Toss>,
     outcome: impl Fn(&Toss) -> Result<Outcome, SolveError>,
@@ -248,7 +246,6 @@ fn tally(
     Ok(numbers)
 }
 
-/// The sum of the differences.
 fn distance(found: [u64; 3], expected: [u64; 3]) -> u64 {
     found.iter().zip(expected).map(|(found, expected)| found.abs_diff(expected)).sum()
 }

@@ -43,7 +43,6 @@ const BANDS: [(&str, [f64; 2]); 4] = [
     ("0.1 to 0.5", [0.1, 0.5]),
 ];
 
-/// A method with the spaces that it is tried on.
 #[derive(Clone, Copy, PartialEq)]
 enum Method {
     Random,

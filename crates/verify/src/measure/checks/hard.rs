@@ -3,11 +3,11 @@
 //! as other checks ask of random launches: accuracy, proofs, no silence, margins. The judge is the reference alone.
 
 use dynamics::Toss;
-use exact::{ExactMotion, certify};
+use exact::certify;
 use rayon::prelude::*;
 use toss::{Outcome, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight};
 
-use super::exact::edge_near;
+use super::exact::{attitude_of_body, cos_tilt_of_body, edge_near};
 use super::landings::{part_of_allowed, part_of_estimate};
 use super::proofs::share;
 use crate::measure::adversary::{self, Answers};
@@ -36,11 +36,11 @@ pub(super) const CHECKS: &[Check] = &[
              by Taylor series, lands at the same attitude: on coins, and on a sample of each family of bodies, for \
              phases of 1 to 100 rad. Measured: the largest angle between the two; it fails above the limit.",
         ),
-    Check::of_library("hard-cos-tilt", Tosses(cos_tilts, Largest)).up_to(1e-15, "1").claims(
+    Check::of_library("hard-cos-tilt", Tosses(|| of_families(cos_tilt_of_body), Largest)).up_to(1e-15, "1").claims(
         "cos θ at landing from the exact motion differs from the reference by at most the limit, for bodies of eight \
          families without a simple case and phases of 1 to 30 rad.",
     ),
-    Check::of_library("hard-attitude", Tosses(attitudes, Largest)).up_to(1e-14, "rad").claims(
+    Check::of_library("hard-attitude", Tosses(|| of_families(attitude_of_body), Largest)).up_to(1e-14, "rad").claims(
         "The attitude at landing from the exact motion differs from the reference by at most the limit, for bodies of \
          eight families without a simple case and phases of 1 to 30 rad.",
     ),
@@ -95,13 +95,6 @@ fn closed_forms() -> Vec<Set> {
     Set::of_families(&FAMILIES, bodies, angle).into_iter().chain([Set::new("coins", coins, angle)]).collect()
 }
 
-fn attitudes() -> Vec<Set> {
-    of_families(|toss, reference| {
-        Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
-    })
-}
-
-/// A set of each family.
 fn of_families(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
     Set::of_families(&HARD, |family, context| hard_tosses_of(family, hard_number(context.effort)), deviation)
 }
@@ -113,12 +106,6 @@ fn with_edges(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync +
         Set::new(format!("{}, at an edge", family.name), tosses, deviation)
     };
     of_families(deviation).into_iter().chain(HARD.iter().enumerate().map(at_edges)).collect()
-}
-
-fn cos_tilts() -> Vec<Set> {
-    of_families(|toss, reference| {
-        Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
-    })
 }
 
 fn outcomes() -> Vec<Set> {

@@ -35,7 +35,6 @@ const fn random_allowing(deviation: OfLanding, allowed: fn(&Allowance) -> f64) -
     Measure::Landings { of: |context| context.survey.get(context), deviation, allowed: Allowed::By(allowed) }
 }
 
-/// A deviation on the bodies.
 const fn of_bodies(deviation: OfLanding, allowed: Allowed) -> Measure {
     Measure::Landings { of: |context| context.bodies.get(context), deviation, allowed }
 }
@@ -281,7 +280,6 @@ fn off_the_attitude(Landed { landing, .. }: &Landed<'_>) -> Option<f64> {
     Some((norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs()))
 }
 
-/// The drift of a coin between launch and landing.
 fn drifted(landed: &Landed<'_>, drift: fn(&Toss, &State) -> f64) -> Option<f64> {
     landed.toss.coin().map(|_| drift(landed.toss, &landed.landing.state))
 }

@@ -99,7 +99,6 @@ fn relaunched(toss: &Toss, change: [f64; 3], time_of_flight: TimeOfFlight) -> Op
     Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
 }
 
-/// The same toss, thrown at another speed and under another gravity.
 fn throw(toss: &Toss, [by_speed, by_gravity]: [f64; 2]) -> Option<Toss> {
     let [speed, gravity] = thrown(toss);
     let (speed, gravity) = (speed + by_speed, gravity + by_gravity);
@@ -121,7 +120,6 @@ fn wrong_margins(toss: &CoinToss, reference: &Reference) -> Deviation {
     Ok(number_of_wrong(&toss, reference.outcome(), LOOKS[0], &[&thrown[..], &[0, 1, 2].map(rate)].concat()))
 }
 
-/// The same of a body, by its time and its rate.
 fn wrong_margins_of_bodies(toss: &Toss, reference: &Reference) -> Deviation {
     let (found, time) = (margin(toss)?, toss.launch.flight_time());
     // The rounding of a rate in another unit would move the toss.

@@ -4,24 +4,25 @@
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Scene, Want};
+use toss::{Scene, Toss, Want};
 
 use crate::measure::case;
 use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::hostile;
-use crate::measure::planner::{Planned, solve_hostile};
+use crate::measure::planner::{Errors, Planned, solve_hostile};
+use crate::measure::tosses::one;
 use crate::measure::trial::Measurement;
 
 pub(super) const CHECKS: &[Check] = &[
-    Check::of_library("plan-delivers", Own(|all| of_random_scenes(all, Planned::error_by_accuracy)))
+    Check::of_library("plan-delivers", Own(|all| of_random_scenes(all, |errors| errors.by_accuracy)))
         .up_to(1.0, "1")
         .claims(
             "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
              largest error divided by that accuracy; it fails above the limit.",
         ),
-    Check::of_library("plan-expects", Own(|all| of_random_scenes(all, Planned::error_by_expected)))
+    Check::of_library("plan-expects", Own(|all| of_random_scenes(all, |errors| errors.by_expected)))
         .up_to(1.0, "1")
         .claims(
             "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
@@ -34,8 +35,7 @@ pub(super) const CHECKS: &[Check] = &[
     ),
 ];
 
-/// What is measured of a scene; `None` if it was refused.
-type Part = fn(&Planned) -> Option<f64>;
+type Part = fn(Errors) -> f64;
 
 /// The largest `part` over the scenes of each kind, in the order in which the kinds first appear.
 fn of_random_scenes(context: &Context, part: Part) -> anyhow::Result<Vec<Measurement>> {
@@ -52,7 +52,7 @@ fn of_random_scenes(context: &Context, part: Part) -> anyhow::Result<Vec<Measure
 /// The largest `part` over the scenes of a kind, with a remark on all parts.
 fn of_kind(scenes: &[Planned], kind: &str, part: Part, remark: fn(&[f64]) -> String) -> Measurement {
     let of_kind: Vec<&Planned> = scenes.iter().filter(|scene| scene.kind == kind).collect();
-    let answered = of_kind.iter().filter_map(|scene| Some((part(scene)?, &scene.input)));
+    let answered = of_kind.iter().filter_map(|scene| Some((part(scene.errors?), &scene.input)));
     let parts: Vec<f64> = answered.clone().map(|(part, _)| part).collect();
     let (remark, refused) = (remark(&parts), of_kind.len() - parts.len());
     let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -67,20 +67,18 @@ fn hostile_plans(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let planned: Vec<Option<Planned>> = coins.chain(bodies).collect::<anyhow::Result<_>>()?;
     let planned: Vec<Planned> = planned.into_iter().flatten().collect();
     let above = |parts: &[f64]| format!("{} above; ", parts.iter().filter(|part| **part > 1.0).count());
-    let row = |kind| of_kind(&planned, kind, Planned::error_by_accuracy, above);
+    let row = |kind| of_kind(&planned, kind, |errors| errors.by_accuracy, above);
     Ok(KINDS.into_iter().chain([BODIES]).map(row).collect())
 }
 
-/// What is planned.
 const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
 
 /// The kind of a plan of a body with I1 ≠ I2: half want cos θ, half an attitude.
 const BODIES: &str = "bodies";
 
-/// Plan number `index`, and its answer.
 fn plan(index: u64) -> anyhow::Result<Planned> {
     let (mut rng, coin) = hostile::planned(index);
-    let kind = KINDS[rng.random_range(0..KINDS.len())];
+    let kind = one(&mut rng, KINDS);
     let toss = coin.into();
     let want = match kind {
         "outcome" => Want::Outcome(toss),
@@ -88,9 +86,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
         "attitude" => Want::Attitude(toss),
         _ => Want::Trace { toss, points: rng.random_range(2..8) },
     };
-    let (by, scene) = asked(want, ["gamma", "euler", "quaternion"][rng.random_range(0..3)], &mut rng);
-    let input = format!("{} # {kind} {by}", case::text(&toss));
-    solve_hostile(kind, &scene, &toss, input)
+    solve_asked(kind, want, &toss, &["gamma", "euler", "quaternion"], &mut rng)
 }
 
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
@@ -98,15 +94,22 @@ fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let (mut rng, toss) = hostile::planned_body(index);
     let Some(toss) = toss.filter(|toss| toss.coin().is_none()) else { return Ok(None) };
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
-    let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
-    let input = format!("{} # {} {by}", case::text(&toss), scene.want.kind().name());
-    solve_hostile(BODIES, &scene, &toss, input).map(Some)
+    solve_asked(BODIES, want, &toss, &["euler", "quaternion"], &mut rng).map(Some)
 }
 
-/// A scene that wants this by the solver, with any scheme and accuracy, and these in words.
-fn asked(want: Want, solver: &str, rng: &mut ChaCha8Rng) -> (String, Scene) {
-    let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
+/// Plans and answers what is wanted of `toss`, by one of the solvers with any scheme and accuracy.
+fn solve_asked(
+    kind: &'static str,
+    want: Want,
+    toss: &Toss,
+    solvers: &[&str],
+    rng: &mut ChaCha8Rng,
+) -> anyhow::Result<Planned> {
+    let solver = solvers[rng.random_range(0..solvers.len())];
+    let scheme = one(rng, [None, Some("dop853"), Some("dopri5")]);
     let accuracy = 10f64.powf(rng.random_range(-11.0..-2.0));
-    let by = format!("to {accuracy:e} by {solver} {}", scheme.unwrap_or("any"));
-    (by, Scene::new(want, accuracy).by(solver, scheme))
+    let scene = Scene::new(want, accuracy).by(solver, scheme);
+    let (wanted, scheme) = (scene.want.kind().name(), scheme.unwrap_or("any"));
+    let input = format!("{} # {wanted} to {accuracy:e} by {solver} {scheme}", case::text(toss));
+    solve_hostile(kind, &scene, toss, input)
 }

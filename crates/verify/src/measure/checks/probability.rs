@@ -116,7 +116,7 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let whole = named_space("paper-fig4")?;
-    let space = context.effort.of([whole.with_grid_of(10_000)?, whole, whole]);
+    let space = context.effort.of([whole.with_grid_of(2500)?, whole, whole]);
     let exact = counts(&space, &Sampler::exact(), Plan::Grid)?;
     let one = random_tosses(&space, 1, 0..1)[0];
     let measure = |entry: &SolverEntry| {
@@ -253,7 +253,6 @@ fn all() -> anyhow::Result<Vec<(&'static str, Space)>> {
     Ok(spaces)
 }
 
-/// The space of these rates and speeds.
 fn space(coin: Coin, [x, y, z, speed]: [&str; 4]) -> Result<Space, InputError> {
     Space::parse(coin, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed)])
 }

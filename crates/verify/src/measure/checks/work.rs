@@ -70,7 +70,6 @@ const FLIGHTS: u64 = 100;
 /// Errors below this are rounding and are left out (rad, summed over the flights).
 const ROUNDING: f64 = 3e-12;
 
-/// Number of tolerances in each decade.
 const PER_DECADE: i32 = 4;
 
 fn proportion(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -54,9 +54,7 @@ impl Numbers {
 
 /// A wrong way to answer.
 pub(super) struct Hypothesis {
-    /// What follows "right if".
     pub(super) words: &'static str,
-    /// The numbers for those of the question.
     pub(super) ask: fn(Numbers) -> Numbers,
     /// The answer put right.
     pub(super) read: fn(&Numbers, [f64; 4]) -> [f64; 4],

@@ -54,7 +54,6 @@ impl Fixed {
         Some(Self::of(digits))
     }
 
-    /// The same number.
     pub(super) fn to_big(self) -> Big {
         let exactly = |digit: i64| Big::from(digit).with_precision(0).value();
         let whole =
@@ -115,7 +114,6 @@ const LEAST: usize = FRACTION - 1;
 pub(super) struct Sum([i128; 2 * PLACES - 1 - LEAST]);
 
 impl Sum {
-    /// Adds a product.
     #[inline]
     pub(super) fn add(&mut self, a: &Fixed, b: &Fixed) {
         // Only places from LEAST on count.
@@ -142,7 +140,6 @@ impl Sum {
         }
     }
 
-    /// Subtracts a sum.
     pub(super) fn subtract(&mut self, other: &Self) {
         self.0.iter_mut().zip(other.0).for_each(|(sum, other)| *sum -= other);
     }

@@ -184,7 +184,6 @@ impl Reference {
         [0, 1, 2, 3].map(|part| to_f64(&self.attitude[part]))
     }
 
-    /// cos θ, rounded.
     pub(crate) fn rounded_cos_tilt(&self) -> f64 {
         to_f64(&self.cos_tilt())
     }
@@ -320,7 +319,6 @@ fn product(a: &[Big; 4], b: &[Big; 4]) -> [Big; 4] {
     ]
 }
 
-/// The vector Q v Q*.
 fn rotated(q: &[Big; 4], vector: &[Big; 3]) -> [Big; 3] {
     let [w, x, y, z] = q;
     let [a, b, c] = vector.clone();

@@ -13,13 +13,11 @@ fn file<T: DeserializeOwned>(text: &str, name: &'static str) -> anyhow::Result<T
     toml::from_str(text).with_context(|| format!("in {name}"))
 }
 
-/// All reference numbers of motions.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceData {
     #[serde(rename = "flight")]
     pub(crate) flights: Vec<ReferenceFlight>,
-    /// Flights of bodies that are no coins.
     #[serde(rename = "body")]
     pub(crate) bodies: Vec<ReferenceBody>,
     /// Tosses up to the time at which their outcome first changes.
@@ -30,7 +28,6 @@ pub(crate) struct ReferenceData {
     pub(crate) detest_b5: Detest,
 }
 
-/// A flight with its landing.
 #[derive(Deserialize)]
 pub(crate) struct ReferenceFlight {
     pub(crate) toss: Toss,
@@ -40,7 +37,6 @@ pub(crate) struct ReferenceFlight {
 }
 
 impl ReferenceFlight {
-    /// cos θ at landing.
     pub(crate) fn cos_tilt(&self) -> f64 {
         self.cos_tilt.parse().unwrap_or(f64::NAN)
     }
@@ -53,7 +49,6 @@ pub(crate) struct ReferenceBody {
     landing: BodyLanding,
 }
 
-/// What is published of a landing.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum BodyLanding {
@@ -110,7 +105,6 @@ impl ReferenceData {
     }
 }
 
-/// All reference probabilities.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceProbabilities {

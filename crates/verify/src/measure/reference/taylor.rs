@@ -50,7 +50,6 @@ const LEFT_OUT: f64 = 5.934_729_841_099_873e-67;
 /// The longest step (rad).
 const LONGEST_STEP: f64 = 1.0;
 
-/// A landing.
 pub(super) struct Flown {
     /// The turn since launch, as a unit quaternion from the body at landing to the body at launch.
     pub(super) turn: [Big; 4],
@@ -284,7 +283,6 @@ fn turned([w, x, y, z]: &[Vec<Fixed>; 4], rate: &[Vec<Fixed>; 3]) -> [Fixed; 4] 
     ]
 }
 
-/// The sum of a series at a part of its step.
 fn at(series: &[Fixed], part: &Fixed) -> Fixed {
     series.iter().rev().fold(Fixed::ZERO, |sum, coefficient| sum.times(*part).plus(*coefficient))
 }

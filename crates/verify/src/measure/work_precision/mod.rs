@@ -90,9 +90,6 @@ impl Sweep {
     /// Samples every solver of `registry` on every problem, and the library's quaternion as [`YARDSTICK`] if it is not among
     /// them. A body that is no coin is flown at the settings at which the solver states an error for it: solvers for coins
     /// refuse it, and next to the separatrix rough settings say nothing.
-    ///
-    /// # Errors
-    /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, Error> {
         let jobs = jobs(&yardstick::beside(registry), problems, effort)?;
         let references: Vec<Vec<Reference>> = problems
@@ -160,7 +157,6 @@ impl Sample {
     }
 }
 
-/// A sample that is to be taken.
 struct Job {
     problem: usize,
     subject: Subject,

@@ -49,9 +49,6 @@ struct Entry {
 }
 
 /// All problems.
-///
-/// # Errors
-/// Never: tests read them.
 pub fn all() -> anyhow::Result<Vec<Problem>> {
     let file: File = toml::from_str(include_str!("../../../data/problems.toml")).context("in problems.toml")?;
     file.problem.into_iter().map(|entry| entry.problem().context("in problems.toml")).collect()

@@ -86,7 +86,6 @@ fn centred(root: &Panel<'_>, text: &str, at: (i32, i32), colour: RGBColor) -> Dr
 /// Where the distance 0 is drawn.
 const ZERO: f64 = 1e-18;
 
-/// The number that is drawn of each spot.
 type Quantity = fn(&Spot) -> Option<f64>;
 
 /// The chart of the attitude's error, with the effect of one rounding of the launch.
@@ -101,7 +100,6 @@ pub(super) fn work(atlas: &Atlas, palette: &Palette<'_>) -> Result<String, Chart
     Lines { atlas, palette, quantity, with_rounding: false }.svg("calls of the right-hand side", 1e1..1e7)
 }
 
-/// What is drawn.
 struct Lines<'a> {
     atlas: &'a Atlas,
     palette: &'a Palette<'a>,
@@ -125,7 +123,6 @@ impl Lines<'_> {
         })
     }
 
-    /// The lines of a panel.
     fn of(&self, hazard: &Hazard) -> Vec<Series> {
         let rounding = self.with_rounding.then(|| self.rounding(hazard));
         let mut lines: Vec<Series> = rounding.into_iter().collect();

@@ -17,7 +17,6 @@ const ORDER_TOP: i32 = 80;
 /// Room for labels beside the lines (pixels).
 const ORDER_RIGHT: u32 = 420;
 
-/// The chart as SVG.
 pub(super) fn order(all: &[Convergence], palette: &Palette<'_>) -> Result<String, ChartError> {
     let of_subject = |found: &Convergence| {
         let observed = found.observed.map_or_else(|| "none".to_owned(), |order| format!("{order:.2}"));
@@ -51,7 +50,6 @@ const PANELS: [(&str, &str, DriftOf); 4] = [
     ("Norm of the quaternion", "norm error", |drift| drift.norm_error),
 ];
 
-/// The chart as SVG.
 pub(super) fn long_flights(flights: &LongFlights, palette: &Palette<'_>) -> Result<String, ChartError> {
     let foot = legend_height(flights.subjects().count());
     let height = 1160 + foot;

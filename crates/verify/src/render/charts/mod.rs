@@ -43,7 +43,6 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     work::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
 }
 
-/// Draws the charts of all records that the `report` has.
 pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     let records = &report.context;
     let palette = Palette::new(&records.registry);
@@ -66,7 +65,6 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     }
     if let (Some(sweep), Some(problem)) = (records.sweep.found(), report.ordinary()) {
         charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
-        charts.push(chart("work-precision-all.svg", work::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
@@ -91,7 +89,6 @@ fn legend_height(lines: usize) -> u32 {
     38 + 44 * (entries + COLUMNS - 1).div_euclid(COLUMNS).unsigned_abs()
 }
 
-/// Draws the names of lines below panels.
 fn legend(panel: &Panel<'_>, lines: &[Series]) -> Drawn {
     chart::legend(panel, lines, COLUMNS, 480)
 }

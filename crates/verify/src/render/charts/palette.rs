@@ -20,10 +20,8 @@ const FREE: [[u8; 3]; 8] = [
     [0, 64, 64],
 ];
 
-/// The colour of what is in no registry.
 const UNKNOWN: [u8; 3] = [110; 3];
 
-/// The colours of a registry.
 pub(crate) struct Palette<'a> {
     registry: &'a [SolverEntry],
     colours: Vec<[u8; 3]>,

@@ -1,7 +1,6 @@
-//! Draws work against the error that it buys: one chart of all problems on a common scale, which shows at a glance who needs
-//! least, and one for each problem, with calls of the right-hand side on the left and time on the right. A chart of Taylor
-//! series has the bounds that they prove beside their errors: a grey line joins the two of each tolerance, and its length is
-//! what the proof costs in digits.
+//! Draws work against the error that it buys: a chart for each problem, with calls of the right-hand side on the left and
+//! time on the right. A chart of Taylor series has the bounds that they prove beside their errors: a grey line joins the two
+//! of each tolerance, and its length is what the proof costs in digits.
 
 use chart::{
     Axis, BLUE, ChartError, Drawn, EndLabel, LINE_WIDTH, Marker, Panel, Series, VERMILION, centred, end_labels,
@@ -24,10 +23,6 @@ const RIGHT: u32 = 290;
 /// Where the crosses of failed runs are (pixels from the top).
 const TOP: i32 = 34;
 
-/// Panels in a row of the chart of all problems, and the size of each (pixels).
-const COLUMNS: usize = 4;
-const PANEL: (u32, u32) = (510, 560);
-
 /// Errors from ten radians down to below the last bit. An error of 0 is drawn at the end.
 const ERRORS: std::ops::Range<f64> = 10.0..1e-18;
 
@@ -41,32 +36,6 @@ const CALLS: (&str, Work) =
     ("calls of the right-hand side per launch", |sample| Some(sample.n_rhs as f64).filter(|calls| *calls > 0.0));
 const TIME: (&str, Work) = ("time per launch [µs]", |sample| Some(sample.t_min_ns as f64 * 1e-3));
 
-/// The chart of all problems as SVG: a panel for each, on one scale, and the legend in the panel after them.
-pub(super) fn all_problems(sweep: &Sweep, palette: &Palette<'_>) -> Result<String, ChartError> {
-    let rows = (sweep.problems.len() + 1).div_ceil(COLUMNS);
-    let width = PANEL.0 * u32::try_from(COLUMNS).unwrap_or(1);
-    let height = HEAD + PANEL.1 * u32::try_from(rows).unwrap_or(1);
-    let drawings: Vec<Drawing<'_>> = sweep
-        .problems
-        .iter()
-        .map(|(problem, _, launches)| Drawing::new(sweep, (problem, *launches), palette))
-        .collect();
-    let lines: Vec<Vec<Series>> = drawings.iter().map(|drawing| drawing.lines(TIME.1)).collect();
-    let y = Axis::logarithmic(TIME.0, work_range(lines.iter().flatten()));
-    svg((width, height), |root| {
-        let (head, body) = root.split_vertically(HEAD);
-        title(&head, "All problems on one scale: lower is cheaper, further right more accurate")?;
-        let panels = body.split_evenly((rows, COLUMNS));
-        for ((drawing, lines), panel) in drawings.iter().zip(&lines).zip(&panels) {
-            log_log(panel, drawing.problem, (&error_axis(), &y), lines, 20)?;
-        }
-        match (lines.first(), panels.get(lines.len())) {
-            (Some(lines), Some(panel)) => chart::legend(panel, lines, 1, 480),
-            _ => Ok(()),
-        }
-    })
-}
-
 /// The chart of `problem`, of so many launches, as SVG.
 pub(super) fn work_precision(
     sweep: &Sweep,
@@ -77,7 +46,7 @@ pub(super) fn work_precision(
     let drawing = Drawing::new(sweep, problem, palette);
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(HEAD);
-        title(&head, &format!("{name}; grey: the front, which no integrator beats"))?;
+        centred(&head, &format!("{name}; grey: the front, which no integrator beats"), (SIZE.0.cast_signed() / 2, 38))?;
         let (left, right) = body.split_horizontally(SIZE.0 / 2);
         drawing.panel(&left, CALLS)?;
         drawing.panel(&right, TIME)
@@ -92,10 +61,6 @@ pub(super) fn overview(sweep: &Sweep, problem: (&str, usize), palette: &Palette<
     svg(OVERVIEW_SIZE, |root| Drawing::new(sweep, problem, palette).panel(root, TIME))
 }
 
-fn title(head: &Panel<'_>, words: &str) -> Drawn {
-    centred(head, words, (i32::try_from(head.dim_in_pixel().0 / 2).unwrap_or(0), 38))
-}
-
 fn error_axis() -> Axis {
     Axis::logarithmic("error of the attitude [rad]", ERRORS)
 }
@@ -107,7 +72,6 @@ fn work_range<'a>(lines: impl Iterator<Item = &'a Series>) -> std::ops::Range<f6
     if least <= most { 0.7 * least..1.5 * most } else { 1.0..10.0 }
 }
 
-/// What is drawn of a problem.
 struct Drawing<'a> {
     sweep: &'a Sweep,
     problem: &'a str,

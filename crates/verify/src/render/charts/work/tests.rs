@@ -1,4 +1,4 @@
-//! Tests of the charts of work against error: how many panels they have, and that no point lies on a frame.
+//! Tests of the charts of work against error.
 
 use toss::Registry;
 
@@ -13,16 +13,15 @@ fn sweep() -> Sweep {
     Sweep::new(Registry::standard().entries(), &cheated, Effort::Quick).unwrap()
 }
 
-/// The numbers of an attribute in the elements of `svg` that begin with `tag`.
 fn numbers(svg: &str, tag: &str, attribute: &str) -> Vec<i32> {
     let value = |line: &str| line.split_once(&format!(" {attribute}=\""))?.1.split('"').next()?.parse().ok();
     svg.lines().filter(|line| line.starts_with(tag)).filter_map(value).collect()
 }
 
 #[test]
-fn no_point_lies_on_the_frame() {
-    let registry = Registry::standard();
-    let svg = work_precision(&sweep(), ("cheated", 1), "cheated", &Palette::new(registry.entries())).unwrap();
+fn no_point_lies_on_the_frame_and_every_line_has_its_name() {
+    let (sweep, registry) = (sweep(), Registry::standard());
+    let svg = work_precision(&sweep, ("cheated", 1), "cheated", &Palette::new(registry.entries())).unwrap();
     let half = i32::try_from(SIZE.0 / 2).unwrap();
     let (left, right) = (152, half - i32::try_from(RIGHT).unwrap());
     let discs: Vec<i32> = numbers(&svg, "<circle", "cx").into_iter().map(|x| x % half).collect();
@@ -31,13 +30,7 @@ fn no_point_lies_on_the_frame() {
     // The squares of the Taylor series, which reach the smallest errors.
     let squares = numbers(&svg, "<rect", "x").into_iter().filter(|x| *x > 0).map(|x| x % half);
     assert!(squares.clone().count() > 3 && squares.clone().all(|x| x + 12 <= right - 2), "{:?}", squares.max());
-}
-
-#[test]
-fn the_chart_of_all_problems_has_a_panel_for_each_and_names_every_subject() {
-    let (sweep, registry) = (sweep(), Registry::standard());
-    let svg = all_problems(&sweep, &Palette::new(registry.entries())).unwrap();
-    for words in sweep.subjects().iter().chain(sweep.problems.iter().map(|(name, ..)| name)) {
-        assert!(svg.lines().any(|line| line == words), "{words}");
+    for name in sweep.subjects() {
+        assert!(svg.lines().any(|line| line.starts_with(&name)), "{name}");
     }
 }
