@@ -18,8 +18,8 @@ pub const MOST_VARIABLES: usize = 3;
 /// The largest number of terms, of series of order 4 in three variables.
 const MOST_TERMS: usize = 35;
 
-/// The largest number of products of terms that are kept in a product of series.
-const MOST_PRODUCTS: usize = 210;
+/// The largest number of products of two terms, neither of which is the constant one, that are kept in a product of series.
+const MOST_PRODUCTS: usize = 141;
 
 /// The exponents of the variables in one term.
 pub type Exponents = [u8; MOST_VARIABLES];
@@ -63,7 +63,8 @@ const fn exponents(terms: usize) -> [Exponents; MOST_TERMS] {
     all
 }
 
-/// For each term of a product of two series the pairs of their terms that it is made of, one after another.
+/// For each term of a product of two series the pairs of their terms that it is made of, one after another, but for those with a
+/// constant term.
 struct Products {
     pairs: [[u8; 2]; MOST_PRODUCTS],
     /// Where the pairs of each term end.
@@ -75,9 +76,9 @@ const fn products(terms: usize) -> Products {
     let mut found = Products { pairs: [[0; 2]; MOST_PRODUCTS], ends: [0; MOST_TERMS] };
     let (mut next, mut target) = (0, 0);
     while target < terms {
-        let mut one = 0;
+        let mut one = 1;
         while one < terms {
-            let mut other = 0;
+            let mut other = 1;
             while other < terms {
                 let (a, b, sum) = (all[one], all[other], all[target]);
                 if a[0] + b[0] == sum[0] && a[1] + b[1] == sum[1] && a[2] + b[2] == sum[2] {
@@ -148,6 +149,15 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         self
     }
 
+    /// The series of what `apply` makes of each term. In place, which is several times as fast as a new array.
+    #[inline]
+    fn each(mut self, apply: impl Fn(N) -> N) -> Self {
+        for term in &mut self.terms {
+            *term = apply(term.clone());
+        }
+        self
+    }
+
     /// Whether it depends on no variable.
     pub(crate) fn is_constant(&self) -> bool {
         self.terms[1..].iter().all(|term| term.sign() == 0.0 && term.error() == 0.0)
@@ -161,7 +171,7 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
 
     /// Every term over `divisor`.
     pub(crate) fn divided(self, divisor: &N) -> Self {
-        Self { terms: self.terms.map(|term| term / divisor.clone()) }
+        self.each(|term| term / divisor.clone())
     }
 
     /// Every term times `factor`.
@@ -169,7 +179,7 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
     pub fn scaled(self, factor: &N) -> Self {
         // What is exactly 0 stays so, whatever the factor is.
         let is_zero = |term: &N| term.sign() == 0.0 && term.error() == 0.0;
-        Self { terms: self.terms.map(|term| if is_zero(&term) { term } else { term * factor.clone() }) }
+        self.each(|term| if is_zero(&term) { term } else { term * factor.clone() })
     }
 
     /// The function of this number with these Taylor coefficients, as many as the order and one, at the constant term.
@@ -231,15 +241,18 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
 impl<N: Elementary, const TERMS: usize> Add for Jet<N, TERMS> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        let mut others = other.terms.into_iter();
-        Self { terms: self.terms.map(|term| others.next().map_or_else(|| term.clone(), |other| term.clone() + other)) }
+        let mut sum = self;
+        for (term, other) in sum.terms.iter_mut().zip(&other.terms) {
+            *term = term.clone() + other.clone();
+        }
+        sum
     }
 }
 
 impl<N: Elementary, const TERMS: usize> Neg for Jet<N, TERMS> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { terms: self.terms.map(N::neg) }
+        self.each(|term| -term)
     }
 }
 
@@ -260,7 +273,7 @@ impl<N: Elementary, const TERMS: usize> Mul for Jet<N, TERMS> {
             return other.scaled(&self.terms[0]);
         }
         let Products { pairs, ends } = &Self::PRODUCTS;
-        Self { terms: N::sums_of_products(&self.terms, &other.terms, pairs, ends) }
+        Self { terms: N::product_of_series(&self.terms, &other.terms, pairs, ends) }
     }
 }
 
@@ -355,7 +368,7 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
     }
 
     fn times_power_of_two(&self, exponent: i32) -> Self {
-        Self { terms: self.terms.each_ref().map(|term| term.times_power_of_two(exponent)) }
+        self.clone().each(|term| term.times_power_of_two(exponent))
     }
 
     fn widened(mut self, error: f64) -> Self {
@@ -364,7 +377,7 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
     }
 
     fn widened_throughout(self, error: f64) -> Self {
-        Self { terms: self.terms.map(|term| term.widened(error)) }
+        self.each(|term| term.widened(error))
     }
 
     fn bound(&self) -> f64 {
