@@ -127,6 +127,18 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         jet
     }
 
+    /// A series in one variable, of the same order or a higher one, as one in variable number `index`.
+    pub fn in_variable<const U: usize>(series: &Jet<N, U>, index: usize) -> Self {
+        debug_assert!(Jet::<N, U>::VARIABLES == 1 && index < Self::VARIABLES);
+        let mut jet = Self::constant(series.terms[0].clone());
+        for (term, exponents) in jet.terms.iter_mut().zip(&Self::EXPONENTS).skip(1) {
+            if exponents.iter().sum::<u8>() == exponents[index] {
+                *term = series.terms[usize::from(exponents[index])].clone();
+            }
+        }
+        jet
+    }
+
     /// The terms with the exponents of their variables: first the constant, then the variables in their order.
     pub fn terms(&self) -> impl Iterator<Item = (&Exponents, &N)> {
         Self::EXPONENTS.iter().zip(&self.terms)
@@ -240,6 +252,7 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
 
 impl<N: Elementary, const TERMS: usize> Add for Jet<N, TERMS> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         let mut sum = self;
         for (term, other) in sum.terms.iter_mut().zip(&other.terms) {
@@ -251,6 +264,7 @@ impl<N: Elementary, const TERMS: usize> Add for Jet<N, TERMS> {
 
 impl<N: Elementary, const TERMS: usize> Neg for Jet<N, TERMS> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         self.each(|term| -term)
     }
@@ -258,8 +272,13 @@ impl<N: Elementary, const TERMS: usize> Neg for Jet<N, TERMS> {
 
 impl<N: Elementary, const TERMS: usize> Sub for Jet<N, TERMS> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
-        self + -other
+        let mut difference = self;
+        for (term, other) in difference.terms.iter_mut().zip(&other.terms) {
+            *term = term.clone() - other.clone();
+        }
+        difference
     }
 }
 

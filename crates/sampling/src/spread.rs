@@ -64,7 +64,7 @@ const CURVATURE: [f64; Coordinate::ALL.len() + 1] = [0.0, 0.917, 1.881, 2.849, 3
 pub enum LargestSpread {
     /// Up to this spread.
     UpTo(SufficientSpread),
-    /// Up to this spread at least. The search ended there after [`MOST_LOOKS`], and says nothing about larger spreads.
+    /// Up to this spread at least. The search ended there, after [`MOST_LOOKS`] or because it was time to end, and says nothing about larger spreads.
     AtLeast(SufficientSpread),
     /// Up to [`LARGEST_SPREAD`] at least. No larger one was looked at.
     Any(SufficientSpread),
@@ -171,7 +171,7 @@ impl Sampler<'_> {
         let spreading = space.with_spread(LARGEST_SPREAD, inputs)?.free().count();
         let look = |spread: f64| {
             let spread_out = space.with_spread(spread, inputs)?;
-            let estimate = self.silent().sampled(&spread_out, plan(&spread_out, scrambled))?;
+            let estimate = self.silent().until(&|| false).sampled(&spread_out, plan(&spread_out, scrambled))?;
             Ok::<_, Error>(Look { spread, estimate })
         };
         let (mut here, mut looks) = (look(SMALLEST_SPREAD)?, 1);
@@ -182,7 +182,7 @@ impl Sampler<'_> {
         // Larger spreads that were looked at, the nearest last.
         let mut ahead: Vec<Look> = Vec::new();
         while here.spread < LARGEST_SPREAD {
-            if looks >= MOST_LOOKS {
+            if looks >= MOST_LOOKS || (self.stop)() {
                 return Ok(LargestSpread::AtLeast(here.sufficient(looks, at_least)));
             }
             let Some(next) = ahead.pop() else {
