@@ -183,8 +183,7 @@ mod tests {
     use super::*;
     use crate::axis::Axis;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-    use crate::estimate::Found;
-    use crate::interval::{Interval, clopper_pearson};
+    use crate::interval::Interval;
     use crate::space_file::named_space;
 
     #[test]

@@ -172,6 +172,7 @@ impl Sampler<'_> {
         let look = |spread: f64| {
             let spread_out = space.with_spread(spread, inputs)?;
             let estimate = self.silent().until(&|| false).sampled(&spread_out, plan(&spread_out, scrambled))?;
+            (self.progress)(1);
             Ok::<_, Error>(Look { spread, estimate })
         };
         let (mut here, mut looks) = (look(SMALLEST_SPREAD)?, 1);

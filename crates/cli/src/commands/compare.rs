@@ -10,9 +10,10 @@ use toss::report::{Comparison, candidates};
 use toss::{ExactSolver, Formulation, Registry, Solver, SolverConfig, Stepping, Toss};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, fixed, table};
+use crate::output::{Asked, FormatArgs, fixed, table};
 use crate::quantity;
 use crate::toss_args::TossArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -34,6 +35,8 @@ pub(crate) struct Args {
           value_parser = quantity::count::<u32>(0..=1000))]
     repeats: u32,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -45,7 +48,7 @@ struct Rows {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let toss = self.toss.toss()?;
         let exact = ExactSolver.land(&toss)?;
         let formulation = if self.formulation == "all" { None } else { Some(Formulation::named(&self.formulation)?) };
@@ -55,10 +58,13 @@ impl Args {
             let time_ns = answered.then(|| self.time_ns(registry, config, &toss)).transpose()?.flatten();
             Ok(Comparison { time_ns, ..compared })
         };
-        let rows =
-            candidates(registry, self.tolerance, self.step, formulation)?.iter().map(row).collect::<Result<_, _>>()?;
+        let candidates = candidates(registry, self.tolerance, self.step, formulation)?;
+        asked.watch.show(Some(candidates.len() as u64), "solvers");
+        let goes_on = |_: &&SolverConfig| !asked.watch.is_over();
+        let rows = candidates.iter().take_while(goes_on).map(row).inspect(|_| asked.watch.count(1));
+        let rows = rows.collect::<Result<_, _>>()?;
         let answer = Rows { cos_tilt: exact.cos_tilt, flight_time: toss.launch.flight_time(), rows };
-        Ok(self.format.print(input, &answer, || text(&answer.rows, self.repeats > 0)))
+        Ok(self.format.print(asked, &answer, || text(&answer.rows, self.repeats > 0)))
     }
 
     /// The median of the time of a flight (ns), if it is to be measured.

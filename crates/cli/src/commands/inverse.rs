@@ -10,7 +10,7 @@ use serde::Serialize;
 use toss::{Coin, InputError};
 
 use crate::failure::Failure;
-use crate::output::{self, FormatArgs, Input, row, table};
+use crate::output::{self, Asked, FormatArgs, row, table};
 use crate::people_file::{self, Named};
 use crate::quantity;
 use crate::toss_args::CoinArgs;
@@ -66,14 +66,14 @@ struct Person {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let coin = self.coin.coin()?;
         let rates = match (&self.counts, self.probability) {
             (Some(counts), _) => Rates::counted(coin, &people(counts)?)?,
             (None, wanted) => Rates::wanted(coin, wanted.unwrap_or(f64::NAN))?,
         };
         let is_of_a_coin = self.coin.given_body()?.is_some();
-        Ok(self.format.print(input, &rates, || rates.text(is_of_a_coin)))
+        Ok(self.format.print(asked, &rates, || rates.text(is_of_a_coin)))
     }
 }
 

@@ -9,7 +9,7 @@ use toss::trace::MOST_POINTS;
 use toss::{QuaternionSolver, Registry, Scene, Want};
 
 use crate::failure::Failure;
-use crate::output::{self, FormatArgs, Input, row, table};
+use crate::output::{self, Asked, FormatArgs, row, table};
 use crate::quantity;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
@@ -52,13 +52,13 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let scene = match &self.scene {
             Some(path) => scene_file(path)?,
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        Ok(self.format.print(input, &decision, || text(&decision, &scene)))
+        Ok(self.format.print(asked, &decision, || text(&decision, &scene)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
