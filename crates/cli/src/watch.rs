@@ -90,8 +90,8 @@ impl Watch {
             require("seconds", seconds, "> 0", seconds > 0.0)?;
         }
         if option.is_some() {
-            // Where no handler can be set, Ctrl-C ends this program as it does others.
-            LISTENING.call_once(|| _ = ctrlc::set_handler(interrupt));
+            // What runs in the background and ignores Ctrl-C goes on ignoring it.
+            LISTENING.call_once(|| _ = ctrlc::try_set_handler(interrupt));
             AT_WORK.store(true, Ordering::SeqCst);
         }
         let allowed = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());

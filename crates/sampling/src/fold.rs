@@ -51,7 +51,7 @@ pub(crate) fn fold<T: Sum>(
     let run = |block: &mut Block, number: u64| -> Result<T, Error> {
         let start = range.start + number * LENGTH;
         // A block that starts after a failing launch can't contain the first one.
-        if start > lowest_failure.load(Ordering::Relaxed) || stop() {
+        if start > lowest_failure.load(Ordering::Relaxed) {
             return Ok(T::default());
         }
         launches.write(start..range.end.min(start.saturating_add(LENGTH)), block);
@@ -63,11 +63,16 @@ pub(crate) fn fold<T: Sum>(
     };
     let blocks = 0..(range.end - range.start).div_ceil(LENGTH);
     #[cfg(feature = "rayon")]
-    return blocks.into_par_iter().panic_fuse().map_init(|| Block::new(space), run).reduce(|| Ok(T::default()), merged);
+    return blocks
+        .into_par_iter()
+        .take_any_while(|_| !stop())
+        .panic_fuse()
+        .map_init(|| Block::new(space), run)
+        .reduce(|| Ok(T::default()), merged);
     #[cfg(not(feature = "rayon"))]
     {
         let mut block = Block::new(space);
-        blocks.map(|number| run(&mut block, number)).fold(Ok(T::default()), merged)
+        blocks.take_while(|_| !stop()).map(|number| run(&mut block, number)).fold(Ok(T::default()), merged)
     }
 }
 

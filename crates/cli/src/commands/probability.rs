@@ -162,7 +162,8 @@ fn not_reached(found: &Estimate, watch: &Watch) -> String {
                 Some(ended) => ended.in_words().to_owned(),
                 None => format!("more cells than {cells} are too many, or roundings forbid it"),
             };
-            format!("\naccuracy     {reached:.1e}, and not the {accuracy:e} that was asked for: {why}")
+            let reached = quantity::rounded_up(reached);
+            format!("\naccuracy     {reached}, and not the {accuracy:e} that was asked for: {why}")
         }
         _ => String::new(),
     }

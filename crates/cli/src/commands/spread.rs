@@ -87,7 +87,7 @@ fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> Vec<String> {
     let mut lines = vec![format!("spread       {}", in_words(together))];
     if let Some(SufficientSpread { estimate, looks, at_least, .. }) = together.sufficient() {
         lines.push(format!("P(heads)     {} at this spread", quantity::probability(estimate.probability, 6)));
-        let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
+        let interval = estimate.interval.map(|interval| quantity::interval(interval, 6) + " ");
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
         let (shown, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
         lines

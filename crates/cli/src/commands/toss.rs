@@ -5,7 +5,7 @@ use toss::{Body, Margin, Registry, Sensitivity, TimeOfFlight, Toss, Work};
 
 use crate::failure::Failure;
 use crate::output::{Asked, FormatArgs, fixed};
-use crate::quantity::shortest;
+use crate::quantity::{rounded_up, shortest};
 use crate::toss_args::FlightArgs;
 use crate::watch::BudgetArgs;
 
@@ -66,11 +66,16 @@ fn text(landing: &Landing, toss: &Toss, turn: Option<String>) -> String {
         format!("solver       {}{scheme}", landing.solver),
     ]);
     if let (Some(cos_tilt), Some(attitude)) = (landing.error_bound, landing.attitude_error_bound) {
-        lines.push(format!("error bound  {cos_tilt:.1e} of cos θ, {attitude:.1e} of the attitude's quaternion"));
+        lines.push(format!(
+            "error bound  {} of cos θ, {} of the attitude's quaternion",
+            rounded_up(cos_tilt),
+            rounded_up(attitude)
+        ));
     }
     // Where it can be seen in the attitude.
     if let Some(turn) = landing.unit_error.flatten().filter(|turn| *turn > 1e-10) {
-        lines.push(format!("unit error   at most {turn:.1e} rad of the attitude, by the conversion of units"));
+        lines
+            .push(format!("unit error   at most {} rad of the attitude, by the conversion of units", rounded_up(turn)));
     }
     if landing.norm_error > 0.0 {
         lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", landing.norm_error));
