@@ -186,7 +186,7 @@ fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) ->
     let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Map::new, |(described, given)| output::input(described, given));
-    let asked = Asked { input, watch: Watch::over(given.subcommand().map(|(_, given)| given))? };
+    let asked = Asked { input, watch: Watch::over(described)? };
     let answer = command.run(registry, &asked, streams);
     asked.watch.finish();
     match (answer, asked.watch.ended()) {

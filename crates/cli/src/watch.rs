@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Once, OnceLock};
 use std::time::{Duration, Instant};
 
-use clap::ArgMatches;
+use clap::{ArgMatches, Command};
 use dynamics::error::require;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use sampling::Sampler;
@@ -82,14 +82,15 @@ impl Watch {
     ///
     /// # Errors
     /// For a time that is not above 0.
-    pub(crate) fn over(given: Option<&ArgMatches>) -> Result<Self, Failure> {
+    pub(crate) fn over(described: Option<(&Command, &ArgMatches)>) -> Result<Self, Failure> {
         static LISTENING: Once = Once::new();
-        let option = given.and_then(|given| given.try_get_one::<f64>("seconds").ok());
-        let seconds = option.flatten().copied();
+        let is_long = |(command, _): &(&Command, _)| command.get_arguments().any(|option| option.get_id() == "seconds");
+        let long = described.filter(is_long);
+        let seconds = long.and_then(|(_, given)| given.get_one::<f64>("seconds").copied());
         if let Some(seconds) = seconds {
             require("seconds", seconds, "> 0", seconds > 0.0)?;
         }
-        if option.is_some() {
+        if long.is_some() {
             // What runs in the background and ignores Ctrl-C goes on ignoring it.
             LISTENING.call_once(|| _ = ctrlc::try_set_handler(interrupt));
             AT_WORK.store(true, Ordering::SeqCst);

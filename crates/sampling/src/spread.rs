@@ -171,7 +171,7 @@ impl Sampler<'_> {
         let spreading = space.with_spread(LARGEST_SPREAD, inputs)?.free().count();
         let look = |spread: f64| {
             let spread_out = space.with_spread(spread, inputs)?;
-            let estimate = self.silent().until(&|| false).sampled(&spread_out, plan(&spread_out, scrambled))?;
+            let estimate = self.silent().sampled(&spread_out, plan(&spread_out, scrambled))?;
             (self.progress)(1);
             Ok::<_, Error>(Look { spread, estimate })
         };
@@ -179,6 +179,7 @@ impl Sampler<'_> {
         if !here.suffices(heads) {
             return Ok(LargestSpread::BelowSmallest(here.estimate));
         }
+        // When it is time to end, a look is left out, and this search ends before the next.
         let mut at_least = here.estimate.probability;
         // Larger spreads that were looked at, the nearest last.
         let mut ahead: Vec<Look> = Vec::new();
@@ -187,7 +188,10 @@ impl Sampler<'_> {
                 return Ok(LargestSpread::AtLeast(here.sufficient(looks, at_least)));
             }
             let Some(next) = ahead.pop() else {
-                ahead.push(look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD))?);
+                match look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD)) {
+                    Err(Error::Ended) => {}
+                    further => ahead.push(further?),
+                }
                 looks += 1;
                 continue;
             };
@@ -197,8 +201,10 @@ impl Sampler<'_> {
             } else if !suffices && next.spread <= here.spread * (1.0 + 1e-5) {
                 return Ok(LargestSpread::UpTo(here.sufficient(looks, at_least)));
             } else {
-                let middle = look((here.spread * next.spread).sqrt())?;
-                ahead.extend([next, middle]);
+                match look((here.spread * next.spread).sqrt()) {
+                    Err(Error::Ended) => {}
+                    middle => ahead.extend([next, middle?]),
+                }
                 looks += 1;
             }
         }

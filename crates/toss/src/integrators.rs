@@ -32,7 +32,7 @@ const ATTITUDE_ERROR: f64 = 1.13e-15 + 4.0 * f64::EPSILON;
 const POINT_NS: f64 = 799.0;
 
 /// A plan flies no more points of a trace than these.
-const FLOWN_POINTS: usize = 4000;
+const FLOWN_POINTS: usize = 1000;
 
 /// What a flight costs without its calls of the right-hand side, and what each call costs (ns), of a coin or of another
 /// body. `cargo bench --package toss --bench costs` measures them; those of coins were taken as the costs of the

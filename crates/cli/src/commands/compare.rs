@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::output::{Asked, FormatArgs, fixed, table};
 use crate::quantity;
 use crate::toss_args::TossArgs;
-use crate::watch::BudgetArgs;
+use crate::watch::{BudgetArgs, Watch};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -55,7 +55,9 @@ impl Args {
         let row = |config: &SolverConfig| -> Result<Comparison, Failure> {
             let compared = Comparison::new(registry, config, &toss, &exact)?;
             let answered = compared.failure.is_none();
-            let time_ns = answered.then(|| self.time_ns(registry, config, &toss)).transpose()?.flatten();
+            let is_measured = answered && !asked.watch.is_over();
+            let time_ns =
+                is_measured.then(|| self.time_ns(registry, config, &toss, &asked.watch)).transpose()?.flatten();
             Ok(Comparison { time_ns, ..compared })
         };
         let candidates = candidates(registry, self.tolerance, self.step, formulation)?;
@@ -68,9 +70,15 @@ impl Args {
     }
 
     /// The median of the time of a flight (ns), if it is to be measured.
-    fn time_ns(&self, registry: &Registry, config: &SolverConfig, toss: &Toss) -> Result<Option<f64>, Failure> {
+    fn time_ns(
+        &self,
+        registry: &Registry,
+        config: &SolverConfig,
+        toss: &Toss,
+        watch: &Watch,
+    ) -> Result<Option<f64>, Failure> {
         let backend = registry.configured(config)?;
-        Ok(median_ns(self.repeats, || backend.solver().land(toss).is_ok()))
+        Ok(median_ns(self.repeats, watch, || backend.solver().land(toss).is_ok()))
     }
 }
 
@@ -102,7 +110,7 @@ fn text(rows: &[Comparison], has_times: bool) -> String {
 
 /// The median of the time (ns) of a call of `job`, from `repeats` measurements; `None` for 0. A measurement repeats the
 /// call until it takes long enough for the clock. Where they take long together, there are fewer.
-fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
+fn median_ns(repeats: u32, watch: &Watch, job: impl Fn() -> bool) -> Option<f64> {
     const LONG_ENOUGH_NS: f64 = 2e5;
     const LONG: Duration = Duration::from_millis(500);
     let measured = |calls: u32| {
@@ -115,7 +123,7 @@ fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
         calls *= 2;
     }
     let began = Instant::now();
-    let goes_on = |done: &u32| *done == 0 || began.elapsed() < LONG;
+    let goes_on = |done: &u32| !watch.is_over() && (*done == 0 || began.elapsed() < LONG);
     let mut times: Vec<f64> = (0..repeats).take_while(goes_on).map(|_| measured(calls) / f64::from(calls)).collect();
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied()

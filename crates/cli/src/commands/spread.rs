@@ -74,12 +74,18 @@ impl Args {
         let default = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
         let scrambled = Scrambled::new(self.points.unwrap_or(default), self.seed);
         let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
-        let alone = HAND.map(|of| Ok(Alone { input: of.name(), found: largest(&[of])? }));
         let together = largest(&HAND)?;
+        let mut alone = Vec::new();
+        for of in HAND {
+            match largest(&[of]) {
+                Err(Error::Ended) => break,
+                found => alone.push(Alone { input: of.name(), found: found? }),
+            }
+        }
         let estimate = together.sufficient().map(|found| &found.estimate);
         let interval = estimate.and_then(|found| found.interval);
         let interval_kind = estimate.map(|found| found.interval_kind.to_string());
-        Ok(Spreads { together, interval, interval_kind, alone: alone.into_iter().collect::<Result<_, Error>>()? })
+        Ok(Spreads { together, interval, interval_kind, alone })
     }
 }
 
