@@ -206,10 +206,22 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         let mut sum = variable_part.clone().scaled(&coefficients[Self::ORDER]);
         for coefficient in coefficients[1..Self::ORDER].iter().rev() {
             sum.terms[0] = coefficient.clone();
-            sum = sum * variable_part.clone();
+            sum = sum.product(&variable_part);
         }
         sum.terms[0] = coefficients[0].clone();
         sum
+    }
+
+    /// The product, of which no series is moved.
+    fn product(&self, other: &Self) -> Self {
+        if other.is_constant() {
+            return self.clone().scaled(&other.terms[0]);
+        }
+        if self.is_constant() {
+            return other.clone().scaled(&self.terms[0]);
+        }
+        let Products { pairs, ends } = &Self::PRODUCTS;
+        Self { terms: N::product_of_series(&self.terms, &other.terms, pairs, ends) }
     }
 
     /// The coefficients from the first one and a rule for the next of each.
@@ -284,15 +296,9 @@ impl<N: Elementary, const TERMS: usize> Sub for Jet<N, TERMS> {
 
 impl<N: Elementary, const TERMS: usize> Mul for Jet<N, TERMS> {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
-        if other.is_constant() {
-            return self.scaled(&other.terms[0]);
-        }
-        if self.is_constant() {
-            return other.scaled(&self.terms[0]);
-        }
-        let Products { pairs, ends } = &Self::PRODUCTS;
-        Self { terms: N::product_of_series(&self.terms, &other.terms, pairs, ends) }
+        self.product(&other)
     }
 }
 

@@ -247,7 +247,12 @@ fn files_are_read_as_editors_write_them_and_their_mistakes_have_a_place() {
             "line 2, column 15: invalid type: string \"x\", expected a number",
         ),
         ("plan --scene", "a.json", "", "line 1, column 1: the text ends within a value"),
-        ("plan --scene", "a.json", r#"{"want": "tilt"}"#, "expected a table below its name, as in [want.tilt]"),
+        (
+            "plan --scene",
+            "a.json",
+            r#"{"want": "tilt"}"#,
+            "line 1, column 15: invalid type: string \"tilt\", expected a table",
+        ),
         (
             "plan --scene",
             "a.toml",
