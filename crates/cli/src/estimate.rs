@@ -1,9 +1,9 @@
 //! An estimate of P(heads) as text, of one run or of parts that were merged.
 
-use sampling::{Estimate, Found, Interval, IntervalKind};
+use sampling::{Estimate, Found, IntervalKind};
 use toss::STAGES;
 
-use crate::quantity::{probability as shown, shortest};
+use crate::quantity::{interval, probability as shown, rounded_up, shortest};
 
 /// An estimate as text.
 pub(crate) fn text(found: &Estimate, solver: &str) -> String {
@@ -11,14 +11,12 @@ pub(crate) fn text(found: &Estimate, solver: &str) -> String {
     let (probability, interval) = match (found.interval, found.half_width()) {
         _ if !found.is_known() => ("not known".to_owned(), format!("0 to 1 ({kind})")),
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
-            (shortest(probability), format!("± {error:.1e} ({kind})"))
+            (shortest(probability), format!("± {} ({kind})", rounded_up(error)))
         }
-        (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
-            (shown(probability, digits_for(error)), format!("{} to {} ({kind})", shortest(lo), shortest(hi)))
-        }
-        (Some(Interval { lo, hi }), Some(error)) => {
+        (Some(found), Some(error)) => {
             let digits = digits_for(error);
-            (shown(probability, digits), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
+            let places = if *kind == IntervalKind::Proven { 16 } else { digits };
+            (shown(probability, digits), format!("{} ({kind})", interval(found, places)))
         }
         _ => (shown(probability, 6), kind.to_string()),
     };

@@ -10,6 +10,7 @@ use toss::{Error, InputError, SolveError};
 use whole_file::{TableError, printable};
 
 use crate::json::{SCHEMA, plain_json};
+use crate::watch::Ended;
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
@@ -82,6 +83,12 @@ pub(crate) enum Failure {
         /// Why not.
         source: rayon::ThreadPoolBuildError,
     },
+    /// Work that ended before there was an answer.
+    #[error("{} before there was an answer", .0.in_words())]
+    Ended(Ended),
+    /// A failure that the answer, which was begun, says already.
+    #[error("{0}")]
+    Said(Box<Failure>),
     /// Standard output that can't be written.
     #[error("cannot write standard output: {0}")]
     Print(std::io::Error),
@@ -152,6 +159,8 @@ impl Failure {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Print(_) | Self::Threads { .. } => 1,
+            Self::Ended(ended) => ended.exit_code(),
+            Self::Said(failure) => failure.exit_code(),
             Self::Unanswered(error) if !error.is_input() => 1,
             _ => 2,
         }
@@ -164,6 +173,8 @@ impl Failure {
             }
             Self::Arguments(_) | Self::Usage { .. } | Self::Row { .. } | Self::Part { .. } => "input",
             Self::Threads { .. } => "threads",
+            Self::Ended(_) => "ended",
+            Self::Said(failure) => failure.kind(),
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
@@ -172,13 +183,18 @@ impl Failure {
 
     /// `{"error":{"kind":..,"message":..,..},..}` with further fields that depend on the kind, such as `field` or `time`.
     pub(crate) fn to_json(&self) -> String {
+        plain_json(&json!({ "schema": SCHEMA, "error": self.json() }))
+    }
+
+    /// What is wrong, as the object `error` of an answer.
+    pub(crate) fn json(&self) -> Value {
         let mut error = Map::new();
         error.insert("kind".to_owned(), json!(self.kind()));
         error.insert("message".to_owned(), json!(self.message()));
         if let Value::Object(details) = self.details() {
             error.extend(details);
         }
-        plain_json(&json!({ "schema": SCHEMA, "error": error }))
+        error.into()
     }
 
     fn details(&self) -> Value {
@@ -196,6 +212,8 @@ impl Failure {
             Self::Arguments(error) => argument_details(error),
             Self::Usage { field, .. } => json!({"field": field}),
             Self::Threads { .. } => json!({"field": "threads"}),
+            Self::Ended(ended) => json!({"ended": ended.name()}),
+            Self::Said(failure) => failure.details(),
             Self::Print(_) | Self::Chart(_) => json!({}),
         }
     }

@@ -29,7 +29,7 @@ const GROUPS: [Group; 6] = [
     Group {
         heading: "Sampling",
         manual: "Sampling options",
-        names: "method accuracy points seed steps replicates up_to reference across up threads heads shard",
+        names: "method accuracy points seed steps replicates up_to reference across up threads seconds heads shard",
     },
     Group { heading: "People", manual: "People options", names: "share sd power people flips" },
     Group {

@@ -16,22 +16,25 @@ mod quantity;
 mod solver_args;
 mod space_args;
 mod toss_args;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
 use std::process::ExitCode;
 
-use ::toss::Registry;
+use ::toss::{Error, Registry};
 use clap::error::{ContextKind, ContextValue};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use dynamics::data::NO_WOBBLE;
+use serde_json::Map;
 
 use crate::commands::{
     compare, convergence, errors, intervals, inverse, limit, list, map, parts, plan, power, probability, sample, shell,
     spread, toss, trace,
 };
 use crate::failure::Failure;
-use crate::output::Input;
+use crate::output::Asked;
+use crate::watch::Watch;
 
 #[derive(Debug, Parser)]
 #[command(name = "unfair-toss", version, about = "Computes how a tossed coin lands, and how probable heads is")]
@@ -87,27 +90,27 @@ enum Command {
 }
 
 impl Command {
-    fn run(&self, registry: &Registry, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
+    fn run(&self, registry: &Registry, asked: &Asked, streams: &mut Streams<'_>) -> Result<String, Failure> {
         match self {
-            Self::Toss(args) => args.run(registry, input),
-            Self::Trace(args) => args.run(registry, input, streams),
-            Self::Probability(args) => args.run(registry, input),
-            Self::Sample(args) => args.run(registry, streams),
-            Self::Compare(args) => args.run(registry, input),
-            Self::Spread(args) => args.run(input),
-            Self::Convergence(args) => args.run(registry, input),
-            Self::Errors(args) => args.run(input),
-            Self::Map(args) => args.run(registry, input),
-            Self::Merge(args) => args.run(input),
-            Self::Intervals(args) => args.run(input),
-            Self::Inverse(args) => args.run(input),
-            Self::Power(args) => args.run(input),
-            Self::Limit(args) => args.run(registry, input),
-            Self::Plan(args) => args.run(registry, input),
-            Self::Coins(args) => list::coins(args, input),
-            Self::Solvers(args) => Ok(list::solvers(args, registry, input)),
-            Self::Models(args) => Ok(list::models(args, input)),
-            Self::Spaces(args) => list::spaces(args, input),
+            Self::Toss(args) => args.run(registry, asked),
+            Self::Trace(args) => args.run(registry, asked, streams),
+            Self::Probability(args) => args.run(registry, asked),
+            Self::Sample(args) => args.run(registry, asked, streams),
+            Self::Compare(args) => args.run(registry, asked),
+            Self::Spread(args) => args.run(asked),
+            Self::Convergence(args) => args.run(registry, asked),
+            Self::Errors(args) => args.run(asked),
+            Self::Map(args) => args.run(registry, asked),
+            Self::Merge(args) => args.run(asked),
+            Self::Intervals(args) => args.run(asked),
+            Self::Inverse(args) => args.run(asked),
+            Self::Power(args) => args.run(asked),
+            Self::Limit(args) => args.run(registry, asked),
+            Self::Plan(args) => args.run(registry, asked),
+            Self::Coins(args) => list::coins(args, asked),
+            Self::Solvers(args) => Ok(list::solvers(args, registry, asked)),
+            Self::Models(args) => Ok(list::models(args, asked)),
+            Self::Spaces(args) => list::spaces(args, asked),
             Self::Completions(args) => Ok(args.run(registry, program_with(registry))),
             Self::Man(args) => args.run(program_with(registry)),
         }
@@ -150,7 +153,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Stream
     };
     let Err(failure) = printed else { return 0 };
     failure.report(streams.err);
-    if wants_json(arguments) {
+    if wants_json(arguments) && !matches!(failure, Failure::Said(_)) {
         // If this can't be printed, the message above and the exit code still tell.
         let _ = output::print(&failure.to_json(), streams.out);
     }
@@ -193,8 +196,19 @@ fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) ->
     let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
     let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
-    let input = described.map_or_else(Input::new, |(described, given)| output::input(described, given));
-    command.run(registry, &input, streams)
+    let input = described.map_or_else(Map::new, |(described, given)| output::input(described, given));
+    let asked = Asked { input, watch: Watch::over(described)? };
+    let answer = command.run(registry, &asked, streams);
+    asked.watch.finish();
+    match (answer, asked.watch.ended()) {
+        (Err(Failure::Unanswered(Error::Ended)), Some(ended)) => Err(Failure::Ended(ended)),
+        (Ok(answer), Some(ended)) => {
+            // The data of a series have no place for it.
+            let _ = writeln!(streams.err, "note: {}; the answer is what was known by then", ended.in_words());
+            Ok(answer)
+        }
+        (answer, _) => answer,
+    }
 }
 
 /// Whether `arguments`, which may be none that the program understands, ask for JSON.

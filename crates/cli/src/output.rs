@@ -9,13 +9,13 @@ use dynamics::data::in_words;
 use dynamics::quantity::Given;
 use dynamics::thrown::{Field, Holds};
 use dynamics::{Error, Thrown};
-use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
 use crate::json::{SCHEMA, plain_json};
+use crate::watch::{Ended, Watch};
 
 /// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -45,10 +45,11 @@ pub(crate) struct FormatArgs {
 
 impl FormatArgs {
     /// The answer as JSON, or its `text`.
-    pub(crate) fn print(&self, input: &Input, answer: &impl Serialize, text: impl FnOnce() -> String) -> String {
-        match self.format {
-            Format::Json => json(input, answer),
-            Format::Text => text(),
+    pub(crate) fn print(&self, asked: &Asked, answer: &impl Serialize, text: impl FnOnce() -> String) -> String {
+        match (self.format, asked.watch.ended()) {
+            (Format::Json, _) => json(asked, answer),
+            (Format::Text, None) => text(),
+            (Format::Text, Some(ended)) => format!("{}\nended        {}", text(), ended.in_words()),
         }
     }
 }
@@ -99,22 +100,18 @@ impl ChartArgs {
         self.svg.is_some()
     }
 
-    /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
-    pub(crate) fn answer(
-        &self,
-        data: impl FnOnce() -> String,
-        draw: impl FnOnce() -> Result<String, Failure>,
-    ) -> Result<String, Failure> {
-        if let Some(path) = &self.svg {
-            let chart = draw()?;
-            // XML has no control characters, and the title may have the name of a file.
-            let chart = whole_file::printable_lines(&chart);
-            if whole_file::leads_to(path) {
-                return Ok(chart.into_owned());
-            }
-            write("svg", path, &chart)?;
+    /// Draws a chart that is asked for: the chart if it stands in place of the data, `None` if it is in its file or if there is
+    /// none.
+    pub(crate) fn chart(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<Option<String>, Failure> {
+        let Some(path) = &self.svg else { return Ok(None) };
+        let chart = draw()?;
+        // XML has no control characters, and the title may have the name of a file.
+        let chart = whole_file::printable_lines(&chart);
+        if whole_file::leads_to(path) {
+            return Ok(Some(chart.into_owned()));
         }
-        Ok(data())
+        write("svg", path, &chart)?;
+        Ok(None)
     }
 }
 
@@ -124,9 +121,9 @@ impl SeriesArgs {
         self.chart.validate(self.format.is_some())
     }
 
-    /// Whether the answer is CSV without a chart.
-    pub(crate) fn is_csv_alone(&self) -> bool {
-        !self.has_chart() && self.format != Some(DataFormat::Json)
+    /// The format of the data.
+    pub(crate) fn format(&self) -> DataFormat {
+        self.format.unwrap_or(DataFormat::Csv)
     }
 
     /// Whether a chart is asked for.
@@ -134,19 +131,24 @@ impl SeriesArgs {
         self.chart.is_some()
     }
 
-    /// As [`ChartArgs::answer`], for data in the format that is asked for.
+    /// As [`ChartArgs::chart`].
+    pub(crate) fn chart(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<Option<String>, Failure> {
+        self.chart.chart(draw)
+    }
+
+    /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
     pub(crate) fn answer(
         &self,
         data: impl FnOnce(DataFormat) -> String,
         draw: impl FnOnce() -> Result<String, Failure>,
     ) -> Result<String, Failure> {
-        self.chart.answer(|| data(self.format.unwrap_or(DataFormat::Csv)), draw)
+        Ok(self.chart(draw)?.unwrap_or_else(|| data(self.format())))
     }
 
     /// As [`SeriesArgs::answer`], for lines of plain data.
     pub(crate) fn answer_lines(
         &self,
-        input: &Input,
+        asked: &Asked,
         series: &[impl Serialize],
         draw: impl FnOnce() -> Result<String, Failure>,
     ) -> Result<String, Failure> {
@@ -156,7 +158,7 @@ impl SeriesArgs {
         }
         let data = |format| match format {
             DataFormat::Csv => csv(series),
-            DataFormat::Json => json(input, &Lines { series }),
+            DataFormat::Json => json(asked, &Lines { series }),
         };
         self.answer(data, draw)
     }
@@ -224,17 +226,23 @@ pub(crate) fn print(text: &str, out: &mut dyn Write) -> Result<(), Failure> {
     whole_file::unless_closed(written).map_err(Failure::Print)
 }
 
-/// The input of a command as its JSON answer repeats it.
-pub(crate) type Input = Map<String, Value>;
+/// What a command is asked, and the watch over its work.
+#[derive(Debug)]
+pub(crate) struct Asked {
+    /// The input as a JSON answer repeats it.
+    pub(crate) input: Map<String, Value>,
+    pub(crate) watch: Watch,
+}
 
 /// What does not change the answer, only where it goes, in which form, and how fast it is there.
 const NO_INPUT: [&str; 5] = ["format", "svg", "threads", "help", "version"];
 
 /// The options of `command` that were `given` or have a default, by their names, and the command's name.
-pub(crate) fn input(command: &Command, given: &ArgMatches) -> Input {
+pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value> {
     let names = command.get_arguments().map(|argument| argument.get_id().as_str());
     let options = names.filter(|name| !NO_INPUT.contains(name));
-    let mut input: Input = options.filter_map(|name| Some((name.to_owned(), value(name, given)?))).collect();
+    let mut input: Map<String, Value> =
+        options.filter_map(|name| Some((name.to_owned(), value(name, given)?))).collect();
     input.insert("command".to_owned(), command.get_name().into());
     input
 }
@@ -275,16 +283,18 @@ fn list(name: &str, text: &str) -> Option<Value> {
     Some(text.split(',').zip(thrown.numbers(field)).map(|(text, number)| as_typed(text, number.si())).collect())
 }
 
-/// An answer, which has fields, as JSON.
-pub(crate) fn json(input: &Input, answer: &impl Serialize) -> String {
+/// An answer, which has fields, as JSON. It says so if the work ended early.
+pub(crate) fn json(asked: &Asked, answer: &impl Serialize) -> String {
     #[derive(Serialize)]
     struct Answered<'a, T> {
         schema: u32,
-        input: &'a Input,
+        input: &'a Map<String, Value>,
         #[serde(flatten)]
         answer: &'a T,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        ended: Option<&'static str>,
     }
-    plain_json(&Answered { schema: SCHEMA, input, answer })
+    plain_json(&Answered { schema: SCHEMA, input: &asked.input, answer, ended: asked.watch.ended().map(Ended::name) })
 }
 
 /// A whole number as JSON: its digits as a text above 2^53, because readers that take numbers for f64, as JavaScript does,
@@ -306,25 +316,6 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
         writer.serialize(line).expect("a line of plain data always fits into memory");
     }
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
-}
-
-/// A progress bar for `number` `things` on standard error, with the rate and the time left. It is hidden if standard
-/// error is not a terminal.
-pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
-    let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        // An error of the terminal is ignored: the bar is not part of the answer.
-        let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
-    };
-    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {rate}, {eta} left")
-        .expect("the template is valid")
-        .with_key("rate", rate);
-    ProgressBar::new(number).with_style(style).with_message(things)
-}
-
-/// A count of things whose number is not known before.
-pub(crate) fn counter(things: &'static str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{spinner} {human_pos} {msg}, {elapsed}").expect("the template is valid");
-    ProgressBar::new_spinner().with_style(style).with_message(things)
 }
 
 /// Formats rows as a table with aligned columns. The first row is the heading.

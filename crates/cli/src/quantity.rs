@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dynamics::Dimension;
 use dynamics::quantity::{Given, look_alike, read_count, read_fraction};
-use sampling::Method;
+use sampling::{Interval, Method};
 use toss::planner::WantKind;
 
 /// A reader of an option that is a quantity of this kind, in the SI unit.
@@ -106,6 +106,28 @@ pub(crate) fn probability(value: f64, places: usize) -> String {
     shown.clone().find(told).unwrap_or_else(|| shortest(value))
 }
 
+/// A bound > 0 with two digits, of which the last is rounded up.
+pub(crate) fn rounded_up(bound: f64) -> String {
+    let shown = format!("{bound:.1e}");
+    let is_below = shown.parse().is_ok_and(|shown: f64| shown < bound);
+    if is_below { format!("{:.1e}", bound + 0.05 * 10f64.powf(bound.log10().floor())) } else { shown }
+}
+
+/// An interval of numbers ≥ 0 to so many decimal places, rounded outwards: what is printed contains it.
+pub(crate) fn interval(Interval { lo, hi }: Interval, places: usize) -> String {
+    format!("{} to {}", outwards(lo, places, false), outwards(hi, places, true))
+}
+
+/// A number ≥ 0 rounded down or `up`, from all of its digits.
+pub(crate) fn outwards(value: f64, places: usize, up: bool) -> String {
+    let all = format!("{value:.1074}");
+    let (kept, rest) = all.split_at(all.len() - 1074 + places);
+    let units: u128 = kept.replace('.', "").parse().unwrap_or_default();
+    let units = units + u128::from(up && rest.contains(|digit| digit != '0'));
+    let one = 10_u128.pow(u32::try_from(places).unwrap_or_default());
+    format!("{}.{:0places$}", units / one, units % one)
+}
+
 /// What is wrong with a text that is not what was `expected`.
 fn expected(text: &str, expected: &str) -> String {
     let look_alike = look_alike(text)
@@ -128,6 +150,18 @@ mod tests {
     fn a_percentage_is_the_decimal_with_its_point_moved() {
         let shown = [0.07, 0.29, 0.000_095, 1e-7, 1.0].map(percent);
         assert_eq!(shown, ["7 %", "29 %", "0.0095 %", "1e-5 %", "100 %"]);
+    }
+
+    #[test]
+    fn an_interval_is_rounded_outwards() {
+        let shown = |lo, hi, places| interval(Interval { lo, hi }, places);
+        assert_eq!(shown(0.123_456_7, 0.765_432_1, 6), "0.123456 to 0.765433");
+        assert_eq!(shown(0.5, 0.75, 2), "0.50 to 0.75");
+        assert_eq!(shown(0.0, 1.0, 3), "0.000 to 1.000");
+        // The f64 next to 0.1 is above it.
+        assert_eq!(shown(0.1, 0.1, 16), "0.1000000000000000 to 0.1000000000000001");
+        assert_eq!(shown(89.996, 179.9951, 2), "89.99 to 180.00");
+        assert_eq!([1.04e-9, 1.05e-9].map(rounded_up), ["1.1e-9", "1.1e-9"]);
     }
 
     #[test]

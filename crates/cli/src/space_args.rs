@@ -5,7 +5,6 @@ use std::path::Path;
 
 use clap::Args;
 use dynamics::thrown::{Field, Thrown};
-use indicatif::ProgressBar;
 use rayon::ThreadPoolBuilder;
 use sampling::{
     AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
@@ -16,9 +15,10 @@ use toss::quantity::Dimension;
 
 use crate::chart::named;
 use crate::failure::Failure;
-use crate::output::{self, counter, progress_bar};
+use crate::output;
 use crate::quantity;
 use crate::toss_args::{self, CoinArgs, Options};
+use crate::watch::Watch;
 
 /// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
@@ -298,31 +298,17 @@ pub(crate) struct ThreadArgs {
 }
 
 impl ThreadArgs {
-    /// Runs `question` with `sampler` on these threads, with a progress bar for the `number` of `things`.
+    /// Runs `question` with `sampler` on these threads, under a watch that counts the `number` of `things`.
     pub(crate) fn ask<T: Send>(
         &self,
+        watch: &Watch,
         sampler: Sampler<'_>,
         (number, things): (u64, &'static str),
         question: impl FnOnce(&Sampler<'_>) -> Result<T, Error> + Send,
     ) -> Result<T, Failure> {
         require_few(&sampler, number)?;
-        let bar = progress_bar(number, things);
-        let progress = |more| bar.inc(more);
-        let answer = self.run(|| question(&sampler.on_progress(&progress)));
-        bar.finish_and_clear();
-        Ok(answer??)
-    }
-
-    /// Runs `job` on these threads, with a counter of things whose number is not known before.
-    pub(crate) fn count<T: Send>(
-        &self,
-        things: &'static str,
-        job: impl FnOnce(&ProgressBar) -> T + Send,
-    ) -> Result<T, Failure> {
-        let counter = counter(things);
-        let answer = self.run(|| job(&counter));
-        counter.finish_and_clear();
-        answer
+        watch.show(Some(number), things);
+        Ok(self.run(|| watch.ask(sampler, question))??)
     }
 
     /// Runs `job` on these threads.

@@ -55,6 +55,9 @@ pub enum Error {
         /// The accuracy that was wanted.
         accuracy: f64,
     },
+    /// It was time to end before there was an answer.
+    #[error("ended before there was an answer")]
+    Ended,
 }
 
 impl Error {
@@ -79,6 +82,7 @@ impl Error {
             Self::Input(InputError::OutsideModel { .. }) => "outside_model",
             Self::Input(_) | Self::BadLaunch { .. } | Self::Text { .. } | Self::NotReached { .. } => "input",
             Self::Solve(source) | Self::Launch { source, .. } => source.kind(),
+            Self::Ended => "ended",
         }
     }
 
@@ -87,13 +91,13 @@ impl Error {
         match self {
             Self::Input(source) | Self::BadLaunch { source, .. } => Some(source.field()),
             Self::NotReached { .. } => Some("accuracy"),
-            Self::Solve(_) | Self::Launch { .. } | Self::Text { .. } => None,
+            Self::Solve(_) | Self::Launch { .. } | Self::Text { .. } | Self::Ended => None,
         }
     }
 
     /// Whether the input is at fault, and not the solver.
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Solve(_) | Self::Launch { .. })
+        !matches!(self, Self::Solve(_) | Self::Launch { .. } | Self::Ended)
     }
 
     /// The same error, with its index counted from the start of a longer sequence in which this one begins at `first`.

@@ -146,31 +146,54 @@ impl<N: Elementary> Div for Ball<N> {
 }
 
 impl<N: Elementary> Number for Ball<N> {
-    /// All roundings of a sum are added up once: n products and n - 1 sums, none of which is above the sum of the sizes.
+    /// All roundings of a term are added up once: n products and n - 1 sums, none of which is above the sum of the sizes. What
+    /// every term has is computed for all at once, in registers.
     #[inline]
-    fn sums_of_products<const T: usize>(
+    fn product_of_series<const T: usize>(
         one: &[Self; T],
         other: &[Self; T],
         pairs: &[[u8; 2]],
         ends: &[usize],
     ) -> [Self; T] {
-        let sizes = one.each_ref().map(Self::size);
-        let other_sizes = other.each_ref().map(|ball| [ball.size(), ball.size() + ball.radius]);
+        let (mut sizes, mut other_sizes, mut largest) = ([0.0; T], [0.0; T], [0.0; T]);
+        for term in 0..T {
+            sizes[term] = one[term].size();
+            other_sizes[term] = other[term].size();
+            largest[term] = other_sizes[term] + other[term].radius;
+        }
+        let (mut product, mut errors, mut sum_of_sizes) = (other.clone(), [0.0; T], [0.0; T]);
+        let zero = one[0].midpoint.like(0.0);
+        for term in 0..T {
+            product[term].midpoint = zero.clone() + one[0].midpoint.clone() * other[term].midpoint.clone();
+            errors[term] = sizes[0] * other[term].radius + one[0].radius * largest[term];
+            sum_of_sizes[term] = sizes[0] * other_sizes[term];
+        }
         let mut start = 0;
-        std::array::from_fn(|target| {
-            let pairs = &pairs[std::mem::replace(&mut start, ends[target])..ends[target]];
-            let mut midpoint = one[0].midpoint.like(0.0);
-            let (mut error, mut size) = (0.0, 0.0);
-            for [i, j] in pairs {
+        for (term, end) in (0..T).zip(ends) {
+            for [i, j] in &pairs[std::mem::replace(&mut start, *end)..*end] {
                 let (i, j) = (usize::from(*i), usize::from(*j));
-                midpoint = midpoint + one[i].midpoint.clone() * other[j].midpoint.clone();
-                error += sizes[i] * other[j].radius + one[i].radius * other_sizes[j][1];
-                size += sizes[i] * other_sizes[j][0];
+                product[term].midpoint =
+                    product[term].midpoint.clone() + one[i].midpoint.clone() * other[j].midpoint.clone();
+                errors[term] += sizes[i] * other[j].radius + one[i].radius * largest[j];
+                sum_of_sizes[term] += sizes[i] * other_sizes[j];
             }
-            let operations = 2.0 * pairs.len() as f64;
+        }
+        for term in 1..T {
+            product[term].midpoint =
+                product[term].midpoint.clone() + one[term].midpoint.clone() * other[0].midpoint.clone();
+            errors[term] += sizes[term] * other[0].radius + one[term].radius * largest[0];
+            sum_of_sizes[term] += sizes[term] * other_sizes[0];
+        }
+        let mut start = 0;
+        for (term, ball) in product.iter_mut().enumerate() {
+            let number = ends[term] - std::mem::replace(&mut start, ends[term]) + if term == 0 { 1 } else { 2 };
+            #[expect(clippy::cast_precision_loss, reason = "a series has few terms")]
+            let operations = 2.0 * number as f64;
             // The sums of errors and sizes have three roundings for each pair.
-            Self::rounded(midpoint, error * (1.0 + 2.0 * operations * f64::EPSILON), operations * size)
-        })
+            let error = errors[term] * (1.0 + 2.0 * operations * f64::EPSILON);
+            *ball = Self::rounded(ball.midpoint.clone(), error, operations * sum_of_sizes[term]);
+        }
+        product
     }
 }
 

@@ -17,20 +17,22 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
         self * factor + term
     }
 
-    /// The sums `Σ one[i] other[j]` over the pairs (i, j) that belong to each of `N` results: `ends[k]` is where those of number k
-    /// end, and each has at least one.
+    /// The product of two series: term 0 is `one[0] other[0]`, and term t > 0 is `one[0] other[t]`, and `one[i] other[j]` over the
+    /// pairs (i, j) that belong to it, and `one[t] other[0]`, added in this order. `ends[t]` is where its pairs end.
     #[inline(always)]
-    fn sums_of_products<const N: usize>(
-        one: &[Self; N],
-        other: &[Self; N],
+    fn product_of_series<const T: usize>(
+        one: &[Self; T],
+        other: &[Self; T],
         pairs: &[[u8; 2]],
         ends: &[usize],
-    ) -> [Self; N] {
-        let product = |[i, j]: &[u8; 2]| one[usize::from(*i)].clone() * other[usize::from(*j)].clone();
+    ) -> [Self; T] {
+        let product = |i: usize, j: usize| one[i].clone() * other[j].clone();
         let mut start = 0;
         std::array::from_fn(|target| {
             let pairs = &pairs[std::mem::replace(&mut start, ends[target])..ends[target]];
-            pairs[1..].iter().map(product).fold(product(&pairs[0]), Self::add)
+            let pair = |[i, j]: &[u8; 2]| product(usize::from(*i), usize::from(*j));
+            let last = (target > 0).then(|| product(target, 0));
+            pairs.iter().map(pair).chain(last).fold(product(0, target), Self::add)
         })
     }
 }

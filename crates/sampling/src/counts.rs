@@ -10,7 +10,7 @@ use dynamics::{Body, Checked, Error, Solver, Tilt, Toss};
 use exact::{Batch, BodyFilter, ProvenCounts};
 
 use crate::block::Block;
-use crate::fold::{Progress, Sum, fold};
+use crate::fold::{Sum, Watch, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -111,15 +111,15 @@ impl Decider<'_> {
         space: &Space,
         launches: &Launches,
         range: Range<u64>,
-        progress: Progress<'_>,
+        watch: Watch<'_>,
     ) -> Result<Counts, Error> {
         match self {
             Self::Exact => {
                 let filter = filter_of(space);
                 let counts = |proven| Counts { proven, ..Counts::default() };
-                fold(space, launches, range, progress, |block| proven(space, block, filter.as_ref()).map(counts))
+                fold(space, launches, range, watch, |block| proven(space, block, filter.as_ref()).map(counts))
             }
-            Self::Solver(solver) => fold(space, launches, range, progress, |block| estimated(space, block, solver)),
+            Self::Solver(solver) => fold(space, launches, range, watch, |block| estimated(space, block, solver)),
         }
     }
 }
@@ -166,7 +166,7 @@ mod tests {
         let texts = [(RateX, "1:20:20"), (RateY, "0"), (RateZ, "0"), (Speed, "3:5:20"), (Tilt, tilt)];
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let launches = Launches::Grid(Grid::new(&space).unwrap());
-        decider.count(&space, &launches, 0..space.grid_points().unwrap(), &|_| {}).unwrap()
+        decider.count(&space, &launches, 0..space.grid_points().unwrap(), (&|_| {}, &|| false)).unwrap()
     }
 
     #[test]
@@ -212,12 +212,13 @@ mod tests {
         let racket = dynamics::catalogue::named_body("racket").unwrap();
         let space = Space::parse(racket, &texts).unwrap();
         let launches = Launches::Grid(Grid::new(&space).unwrap());
-        let count = |decider: &Decider<'_>| decider.count(&space, &launches, 0..35, &|_| {});
+        let count = |decider: &Decider<'_>| decider.count(&space, &launches, 0..35, (&|_| {}, &|| false));
         let (proven, solved) =
             (count(&Decider::Exact).unwrap(), count(&Decider::Solver(Checked::new(&ExactSolver))).unwrap());
         assert!(proven.are_certified() && !solved.are_certified());
         assert_eq!((proven.points(), proven.heads(), proven.tails()), (35, solved.heads(), solved.tails()));
-        let as_coin = Decider::Exact.count(&space.with_body(Coin::PAPER).unwrap(), &launches, 0..35, &|_| {}).unwrap();
+        let as_coin =
+            Decider::Exact.count(&space.with_body(Coin::PAPER).unwrap(), &launches, 0..35, (&|_| {}, &|| false)).unwrap();
         assert_ne!(as_coin.heads(), proven.heads());
         let refused = count(&Decider::Solver(Checked::new(&ForCoins))).unwrap_err();
         assert!(matches!(refused, Error::Launch { index: 0, source: dynamics::SolveError::NotSymmetric { .. }, .. }));

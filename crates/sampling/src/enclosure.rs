@@ -16,28 +16,25 @@ mod roots;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use dynamics::error::require;
-use dynamics::{Coin, Error, InputError};
-use numerics::{Ball, DoubleDouble, Elementary};
-#[cfg(feature = "rayon")]
-use rayon::prelude::*;
-
 use crate::axis::Distribution;
 use crate::coordinate::Coordinate;
 use crate::estimate::Estimate;
-use crate::fold::{Narrowed, Progress};
+use crate::fold::{Narrowed, Progress, Stop};
 use crate::interval::Interval;
 use crate::space::Space;
 use cell::{Cell, MOST_DIRECTIONS};
 use directions::{Direction, directions_of};
+use dynamics::error::require;
+use dynamics::{Coin, Error, InputError};
 use function::Bounds;
 use means::Problem;
+use numerics::{Ball, DoubleDouble, Elementary};
 
 /// The largest number of cells of one sum, unless another is given.
 pub const MOST_CELLS: u64 = 1 << 24;
 
-/// The number of cells that are made before they are divided among the threads.
-const FIRST_CELLS: usize = 256;
+/// So many cells are reported together.
+const REPORTED: u64 = 256;
 
 /// The finest accuracy that can be asked for. The roundings of the closed form over the speeds are about half of it.
 const FINEST: f64 = 2e-14;
@@ -132,8 +129,8 @@ pub fn usual_accuracy(space: &Space) -> f64 {
     }
 }
 
-/// Where cells that are done, and narrower intervals, are reported.
-pub(crate) type Reports<'a> = (Progress<'a>, Narrowed<'a>);
+/// Where cells that are done, and narrower intervals, are reported, and what says that it is time to end.
+pub(crate) type Reports<'a> = (Progress<'a>, Narrowed<'a>, Stop<'a>);
 
 /// Encloses P(heads) of `space` to ± `accuracy`, or as narrowly as `most_cells` cells allow.
 ///
@@ -151,7 +148,7 @@ pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_
 ///
 /// Where a sum takes too many cells, `cells` are all that are allowed.
 fn enclosed(
-    (progress, narrowed): Reports<'_>,
+    (progress, narrowed, stop): Reports<'_>,
     (space, coin): (&Space, Coin),
     accuracy: f64,
     most_cells: u64,
@@ -159,7 +156,7 @@ fn enclosed(
     let (directions, roundings) = directions_of(space);
     let is_across = directions.iter().flatten().any(Direction::is_across);
     let left_out = left_out(space, roundings);
-    let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress };
+    let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress, stop };
     let mut best: Option<Enclosure> = None;
     // A first threshold from which few cells result, and lower ones as the last width asks for.
     let mut passes = Passes {
@@ -188,7 +185,7 @@ fn enclosed(
             narrowed(interval);
         }
         best = Some(found);
-        if !passes.is_next(now, cells) {
+        if stop() || !passes.is_next(now, cells) {
             return found;
         }
     }
@@ -289,54 +286,48 @@ struct Work<'a> {
     problem: Problem<'a>,
     roots: Vec<Cell<'a>>,
     progress: Progress<'a>,
+    stop: Stop<'a>,
+}
+
+/// Cells that were looked at, and how many may be.
+struct Count {
+    done: AtomicU64,
+    most: u64,
 }
 
 impl<'a> Work<'a> {
     /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`; `None` if that
-    /// takes more than `most_cells`.
-    fn pass(&self, threshold: f64, most_cells: u64) -> Option<(Ball<DoubleDouble>, u64)> {
-        let cells = AtomicU64::new(0);
-        let mut sum = Ball::new(DoubleDouble::ZERO, 0.0);
-        // Level by level until there are enough cells to divide, then each to its end.
-        let mut waiting: Vec<Cell<'a>> = self.roots.clone();
-        while !waiting.is_empty() && waiting.len() < FIRST_CELLS {
-            let mut next = Vec::new();
-            for cell in waiting {
-                cells.fetch_add(1, Ordering::Relaxed);
-                match self.step(&cell, threshold) {
-                    Step::Part(part) => sum = sum + part,
-                    Step::Halves(halves) => next.extend(*halves),
-                }
-            }
-            waiting = next;
+    /// takes more than `most` cells.
+    fn pass(&self, threshold: f64, most: u64) -> Option<(Ball<DoubleDouble>, u64)> {
+        let (count, nothing) = (Count { done: AtomicU64::new(0), most }, Ball::new(DoubleDouble::ZERO, 0.0));
+        let sums = self.roots.iter().map(|root| self.sum(root, threshold, &count));
+        let sum = sums.fold(Some(nothing), |sum, part| Some(sum? + part?))?;
+        let cells = count.done.into_inner();
+        (self.progress)(cells % REPORTED);
+        Some((sum, cells))
+    }
+
+    /// The sum over a cell. Its halves are given to two threads, wherever they are, and added in their order. After a stop no
+    /// cell is halved any more.
+    fn sum(&self, cell: &Cell<'a>, threshold: f64, count: &Count) -> Option<Ball<DoubleDouble>> {
+        let done = count.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done > count.most {
+            return None;
         }
-        let of_first = |cell: &Cell<'a>| -> Option<Ball<DoubleDouble>> {
-            let mut sum = Ball::new(DoubleDouble::ZERO, 0.0);
-            let (mut waiting, mut done) = (vec![cell.clone()], 0);
-            while let Some(cell) = waiting.pop() {
-                done += 1;
-                match self.step(&cell, threshold) {
-                    Step::Part(part) => sum = sum + part,
-                    Step::Halves(halves) => waiting.extend(*halves),
-                }
-                if done == 1024 || waiting.is_empty() {
-                    (self.progress)(done);
-                    if cells.fetch_add(done, Ordering::Relaxed) + done > most_cells {
-                        return None;
-                    }
-                    done = 0;
-                }
-            }
-            Some(sum)
-        };
-        #[cfg(feature = "rayon")]
-        let sums: Option<Vec<_>> = waiting.par_iter().map(of_first).collect();
-        #[cfg(not(feature = "rayon"))]
-        let sums: Option<Vec<_>> = waiting.iter().map(of_first).collect();
-        for part in sums? {
-            sum = sum + part;
+        if done.is_multiple_of(REPORTED) {
+            (self.progress)(REPORTED);
         }
-        Some((sum, cells.into_inner()))
+        match self.step(cell, if (self.stop)() { f64::INFINITY } else { threshold }) {
+            Step::Part(part) => Some(part),
+            Step::Halves(halves) => {
+                let [one, other] = halves.each_ref().map(|half| || self.sum(half, threshold, count));
+                #[cfg(feature = "rayon")]
+                let (one, other) = rayon::join(one, other);
+                #[cfg(not(feature = "rayon"))]
+                let (one, other) = (one(), other());
+                Some(one? + other?)
+            }
+        }
     }
 
     /// Bounds the mean over a cell, or halves the cell if the bounds are too far apart.

@@ -27,8 +27,14 @@ pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
 /// unwind as [`Progress`] may.
 pub type Narrowed<'a> = &'a (dyn Fn(Interval) + Sync);
 
+/// Whether to come to an end, which is asked again and again. What is known by then is the answer, where there is one.
+pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// What watches over the launches of a sum.
+pub(crate) type Watch<'a> = (Progress<'a>, Stop<'a>);
+
 /// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool if there are
-/// threads, and merges the sums.
+/// threads, and merges the sums. After a stop no block is begun: the sum then is of fewer launches.
 ///
 /// # Errors
 /// The [`Error`] of `add`, with the launch numbered from the start of the sequence. If several launches fail, it is
@@ -37,7 +43,7 @@ pub(crate) fn fold<T: Sum>(
     space: &Space,
     launches: &Launches,
     range: Range<u64>,
-    progress: Progress<'_>,
+    (progress, stop): Watch<'_>,
     add: impl Fn(&Block) -> Result<T, Error> + Sync,
 ) -> Result<T, Error> {
     const LENGTH: u64 = BLOCK as u64;
@@ -57,11 +63,16 @@ pub(crate) fn fold<T: Sum>(
     };
     let blocks = 0..(range.end - range.start).div_ceil(LENGTH);
     #[cfg(feature = "rayon")]
-    return blocks.into_par_iter().panic_fuse().map_init(|| Block::new(space), run).reduce(|| Ok(T::default()), merged);
+    return blocks
+        .into_par_iter()
+        .take_any_while(|_| !stop())
+        .panic_fuse()
+        .map_init(|| Block::new(space), run)
+        .reduce(|| Ok(T::default()), merged);
     #[cfg(not(feature = "rayon"))]
     {
         let mut block = Block::new(space);
-        blocks.map(|number| run(&mut block, number)).fold(Ok(T::default()), merged)
+        blocks.take_while(|_| !stop()).map(|number| run(&mut block, number)).fold(Ok(T::default()), merged)
     }
 }
 
@@ -95,7 +106,10 @@ mod tests {
     use dynamics::{Coin, CoinToss, Launch, SolveError, TimeOfFlight, Toss};
 
     use super::*;
+    use crate::coordinate::Coordinate;
     use crate::counts::Counts;
+    use crate::plan::{Plan, Rest, Scrambled};
+    use crate::sampler::Sampler;
     use crate::space::Cube;
     use crate::space_file::named_space;
 
@@ -125,11 +139,44 @@ mod tests {
             }
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
-        let work = || pool.install(|| fold(&space, &launches, 0..1 << 44, &progress, add));
+        let work = || pool.install(|| fold(&space, &launches, 0..1 << 44, (&progress, &|| false), add));
         let end = catch_unwind(AssertUnwindSafe(work)).unwrap_err();
         assert_eq!(end.downcast_ref::<&str>(), Some(&"enough"));
         // Each thread may have begun a block before it knew.
         assert!((5..=9).contains(&tried.load(Ordering::Relaxed)), "{tried:?}");
+    }
+
+    /// Of independent launches, fewer are an answer as well; whatever else is counted has none before its end.
+    #[test]
+    fn a_stop_leaves_what_was_counted() {
+        let space = named_space("tails").unwrap();
+        let told = AtomicU64::new(0);
+        let progress = |more| _ = told.fetch_add(more, Ordering::Relaxed);
+        let stop = || told.load(Ordering::Relaxed) >= 5 * BLOCK as u64;
+        let sampler = Sampler::exact().on_progress(&progress).until(&stop);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let plan = |points| Plan::Random { points, seed: 1 };
+        let found = pool.install(|| sampler.estimate(&space, plan(1 << 40))).unwrap();
+        assert!((5 * BLOCK as u64..=8 * BLOCK as u64).contains(&found.points), "{found:?}");
+        assert_eq!(found.plan, plan(found.points));
+        let ended = |plan| assert_eq!(sampler.estimate(&space, plan), Err(Error::Ended), "{plan:?}");
+        ended(Plan::Sobol(Scrambled::new(1 << 14, 1)));
+        ended(Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 14, 1))));
+        assert_eq!(sampler.tally(&space, plan(1 << 20), 0..1 << 20), Err(Error::Ended));
+        // A grid of 600 launches, in steps of 200: a step that is cut short is left out.
+        let grid = Space::parse(
+            Coin::PAPER,
+            &[
+                (Coordinate::RateX, "1:60:3000"),
+                (Coordinate::RateY, "4"),
+                (Coordinate::RateZ, "7"),
+                (Coordinate::Speed, "3"),
+            ],
+        )
+        .unwrap();
+        told.store(0, Ordering::Relaxed);
+        let steps = pool.install(|| sampler.running_shares(&grid, 3, 1)).unwrap();
+        assert_eq!(steps.iter().map(|step| step.launches).collect::<Vec<_>>(), [1000]);
     }
 
     #[test]
@@ -144,7 +191,7 @@ mod tests {
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         let progress = |more| _ = told.fetch_add(more, Ordering::Relaxed);
-        let found = pool.install(|| fold(&space, &launches, 100..100_000, &progress, add));
+        let found = pool.install(|| fold(&space, &launches, 100..100_000, (&progress, &|| false), add));
         assert!(matches!(found, Err(Error::Launch { index: 619, .. })), "{found:?}");
         assert_eq!((tried.into_inner(), told.into_inner()), (2, 512));
     }

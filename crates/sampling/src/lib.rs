@@ -62,7 +62,7 @@ pub use coordinate::Coordinate;
 pub use counts::Counts;
 pub use drawn::Drawn;
 pub use estimate::{Estimate, Found, IntervalKind};
-pub use fold::{Narrowed, Progress};
+pub use fold::{Narrowed, Progress, Stop};
 pub use interval::{Interval, clopper_pearson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};

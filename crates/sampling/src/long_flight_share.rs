@@ -56,7 +56,8 @@ impl Sampler<'_> {
             let estimate = self.estimate(&space, Plan::Random { points, seed: seed.wrapping_add(index) })?;
             Ok(LongFlightShare { cone_angle, limit: long_flight_probability(cone_angle, cone_angle), estimate })
         };
-        (0..).zip(cone_angles).map(share).collect()
+        let goes_on = |_: &_| !(self.stop)();
+        (0..).zip(cone_angles).take_while(goes_on).map(share).collect()
     }
 }
 

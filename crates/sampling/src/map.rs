@@ -26,7 +26,7 @@ pub struct Map {
 pub struct Node {
     /// P(heads), from 0 to 1, of the launches that are decided; `None` if none is.
     pub probability: Option<f64>,
-    /// Number of launches that are undecided.
+    /// Number of launches that are undecided; 0 without a probability if it was time to end before the node.
     pub undecided: u64,
 }
 
@@ -39,9 +39,13 @@ impl Sampler<'_> {
     pub fn map(&self, space: &Space, [across, up]: [Coordinate; 2], plan: Plan) -> Result<Map, Error> {
         map_nodes(space, [across, up])?;
         let (columns, rows) = (values(space, across)?, values(space, up)?);
-        let sampler = self.silent();
+        // A node is computed as a whole, or not at all.
+        let sampler = self.silent().until(&|| false);
         let node = |index: usize| {
             let (column, row) = (columns[index % columns.len()], rows[index / columns.len()]);
+            if (self.stop)() {
+                return Ok(Node { probability: None, undecided: 0 });
+            }
             let here = space.with_axis(across, column)?.with_axis(up, row)?;
             let found = sampler.estimate(&here, plan)?;
             (self.progress)(1);

@@ -6,7 +6,7 @@ use dynamics::{Checked, Error, InputError, Solver};
 use crate::counts::Decider;
 use crate::enclosure::{self, MOST_CELLS};
 use crate::estimate::Estimate;
-use crate::fold::{Narrowed, Progress};
+use crate::fold::{Narrowed, Progress, Stop, Watch};
 use crate::plan::Plan;
 use crate::space::Space;
 
@@ -27,12 +27,13 @@ pub struct Sampler<'a> {
     pub(crate) decider: Decider<'a>,
     pub(crate) progress: Progress<'a>,
     pub(crate) narrowed: Narrowed<'a>,
+    pub(crate) stop: Stop<'a>,
 }
 
 impl Sampler<'static> {
     /// A sampler that decides outcomes by the exact motion. Every outcome is proven.
     pub fn exact() -> Self {
-        Self { decider: Decider::Exact, progress: &|_| {}, narrowed: &|_| {} }
+        Self { decider: Decider::Exact, progress: &|_| {}, narrowed: &|_| {}, stop: &|| false }
     }
 }
 
@@ -40,7 +41,7 @@ impl<'a> Sampler<'a> {
     /// A sampler that decides outcomes by `solver`. Outcomes within its error estimate are undecided, and none is
     /// proven.
     pub fn by(solver: &'a dyn Solver) -> Self {
-        Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {}, narrowed: &|_| {} }
+        Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {}, narrowed: &|_| {}, stop: &|| false }
     }
 
     /// Whether the exact motion decides.
@@ -66,9 +67,20 @@ impl<'a> Sampler<'a> {
         Sampler { narrowed, ..self }
     }
 
+    /// Sets a function that says whether to come to an end. Then the answer is what is known: of an enclosure the interval that is
+    /// proven, of independent launches the estimate from those that were done, of a search for a spread how far it came, of a
+    /// series, a map or a list what is complete of it. What has no answer before its end is [`Error::Ended`].
+    #[must_use]
+    pub fn until<'b>(self, stop: Stop<'b>) -> Sampler<'b>
+    where
+        'a: 'b,
+    {
+        Sampler { stop, ..self }
+    }
+
     /// The same sampler without progress reports.
     pub(crate) fn silent(&self) -> Sampler<'a> {
-        Sampler { decider: self.decider.clone(), progress: &|_| {}, narrowed: &|_| {} }
+        Sampler { decider: self.decider.clone(), progress: &|_| {}, narrowed: &|_| {}, stop: self.stop }
     }
 
     /// Estimates the probability of heads in `space` by `plan`.
@@ -81,7 +93,7 @@ impl<'a> Sampler<'a> {
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
         self.require_exact()?;
-        enclosure::estimate((self.progress, self.narrowed), space, accuracy, MOST_CELLS)
+        enclosure::estimate((self.progress, self.narrowed, self.stop), space, accuracy, MOST_CELLS)
     }
 
     /// Estimates the probability of heads from the launches of a plan. A program that calls this function and not
@@ -94,7 +106,23 @@ impl<'a> Sampler<'a> {
             self.require_exact()?;
         }
         let points = plan.points(space)?;
-        Ok(self.sums(space, plan, &(0..points))?.estimate(space, plan)?)
+        let sums = self.sums(space, plan, &(0..points))?;
+        // Independent launches are a sample, however many were done.
+        let plan = match (plan, sums.launches()) {
+            (Plan::Random { seed, .. }, points @ 1..) => Plan::Random { points, seed },
+            _ => plan,
+        };
+        sums.require(plan.points(space)?)?;
+        Ok(sums.estimate(space, plan)?)
+    }
+
+    /// Whether it is time to end.
+    pub fn is_over(&self) -> bool {
+        (self.stop)()
+    }
+
+    pub(crate) fn watch(&self) -> Watch<'a> {
+        (self.progress, self.stop)
     }
 
     fn require_exact(&self) -> Result<(), InputError> {

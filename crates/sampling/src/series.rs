@@ -54,8 +54,11 @@ impl Sampler<'_> {
     /// # Errors
     /// As [`Sampler::estimate`].
     pub fn running_shares(&self, space: &Space, steps: u64, seed: u64) -> Result<Vec<RunningStep>, Error> {
-        let grid = self.running_grid(space, steps)?;
-        let random = self.running_random(space, space.grid_points()?, seed, steps)?;
+        let points = space.grid_points()?;
+        let random = Launches::Random { cube: Cube::new(space, space.free()), seed };
+        // The launches come in the order of the grid, in which the speed varies fastest.
+        let series = [Launches::Grid(Grid::new(space)?), random];
+        let [grid, random] = self.running(space, &series, points, steps)?;
         let is_undecided = grid.iter().chain(&random).any(|counts| counts.undecided() > 0);
         let undecided = |counts: &Counts| is_undecided.then(|| counts.undecided());
         let step = |(grid, random): (&Counts, &Counts)| {
@@ -73,20 +76,15 @@ impl Sampler<'_> {
         Ok(grid.iter().zip(&random).map(step).collect())
     }
 
-    /// The running counts of method A, in `steps` equal steps, the last of which is the whole grid. The launches come
-    /// in the order of the grid, in which the speed varies fastest.
-    fn running_grid(&self, space: &Space, steps: u64) -> Result<Vec<Counts>, Error> {
-        self.running(space, &Launches::Grid(Grid::new(space)?), space.grid_points()?, steps)
-    }
-
-    /// The running counts of method B over `points` launches, in `steps` equal steps.
-    fn running_random(&self, space: &Space, points: u64, seed: u64, steps: u64) -> Result<Vec<Counts>, Error> {
-        let cube = Cube::new(space, space.free());
-        self.running(space, &Launches::Random { cube, seed }, points, steps)
-    }
-
-    /// The running counts over the first `points` of `launches`, in `steps` equal steps.
-    fn running(&self, space: &Space, launches: &Launches, points: u64, steps: u64) -> Result<Vec<Counts>, Error> {
+    /// The running counts over the first `points` of each of the `series`, in `steps` equal steps. When it is time to end, the
+    /// steps that are complete.
+    fn running(
+        &self,
+        space: &Space,
+        series: &[Launches; 2],
+        points: u64,
+        steps: u64,
+    ) -> Result<[Vec<Counts>; 2], Error> {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         require(
             "steps",
@@ -97,14 +95,20 @@ impl Sampler<'_> {
         // Number of launches at the end of a step, computed without overflow.
         let end =
             |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);
-        let mut counts = Counts::default();
-        (0..steps)
-            .map(|step| {
-                let more = self.decider.count(space, launches, end(step)..end(step + 1), self.progress)?;
-                counts = [counts, more].into_iter().sum();
-                Ok(counts)
-            })
-            .collect()
+        let (mut found, mut counts) = ([Vec::new(), Vec::new()], [Counts::default(); 2]);
+        for step in 0..steps {
+            for (counts, launches) in counts.iter_mut().zip(series) {
+                let more = self.decider.count(space, launches, end(step)..end(step + 1), self.watch())?;
+                *counts = [*counts, more].into_iter().sum();
+            }
+            if counts.iter().any(|counts| counts.points() < end(step + 1)) {
+                break;
+            }
+            for (found, counts) in found.iter_mut().zip(counts) {
+                found.push(counts);
+            }
+        }
+        Ok(found)
     }
 }
 
@@ -179,42 +183,28 @@ mod tests {
     use super::*;
     use crate::axis::Axis;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-    use crate::estimate::Found;
-    use crate::interval::{Interval, clopper_pearson};
+    use crate::interval::Interval;
     use crate::space_file::named_space;
 
     #[test]
-    fn running_counts_end_with_the_counts_of_the_estimate() {
-        let space = named_space("paper-fig4").unwrap();
-        let counts_of = |plan| match Sampler::exact().estimate(&space, plan).unwrap().found {
-            Found::Counts(counts) => counts,
-            Found::Shares { .. } => panic!("counts were asked for"),
-        };
-        let grid = Sampler::exact().running_grid(&space, 7).unwrap();
-        assert_eq!((grid.len(), grid[6]), (7, counts_of(Plan::Grid)));
-        let random = Sampler::exact().running_random(&space, 1000, 5, 1000).unwrap();
-        assert_eq!(random[999], counts_of(Plan::Random { points: 1000, seed: 5 }));
-        assert_eq!(random[99], counts_of(Plan::Random { points: 100, seed: 5 }));
-        assert!(random.iter().zip(1..).all(|(counts, points)| counts.points() == points));
-        for steps in [0, 1001] {
-            let refused = Sampler::exact().running_random(&space, 1000, 5, steps);
+    fn running_shares_are_those_of_estimates_from_as_many_launches() {
+        let space = named_space("tails").unwrap().with_axis(Speed, Axis::range(0.0..=5.0).with_points(90)).unwrap();
+        let estimate = |plan| Sampler::exact().estimate(&space, plan).unwrap();
+        let steps = Sampler::exact().running_shares(&space, 9, 5).unwrap();
+        assert_eq!(steps.iter().map(|step| step.launches).collect::<Vec<_>>(), [10, 20, 30, 40, 50, 60, 70, 80, 90]);
+        for step in &steps {
+            let random = estimate(Plan::Random { points: step.launches, seed: 5 });
+            let Interval { lo, hi } = random.interval.unwrap();
+            let [launches, grid, ..] = step.columns().unwrap();
+            assert_eq!(step.columns(), Some([launches, grid, random.probability, lo, hi]));
+            assert_eq!((step.grid_undecided, step.random_undecided), (None, None));
+        }
+        assert_eq!(steps[8].grid, Some(estimate(Plan::Grid).probability));
+        assert_ne!(steps[8].grid, steps[8].random);
+        for steps in [0, 91] {
+            let refused = Sampler::exact().running_shares(&space, steps, 5);
             assert!(matches!(refused, Err(Error::Input(error)) if error.field() == "steps"));
         }
-    }
-
-    #[test]
-    fn running_shares_compare_the_grid_with_as_many_random_launches() {
-        let space = named_space("tails").unwrap().with_axis(Speed, Axis::range(0.0..=5.0).with_points(90)).unwrap();
-        let steps = Sampler::exact().running_shares(&space, 9, 5).unwrap();
-        let grid = Sampler::exact().running_grid(&space, 9).unwrap();
-        let random = Sampler::exact().running_random(&space, 90, 5, 9).unwrap();
-        assert_eq!(steps.len(), 9);
-        for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
-            let Interval { lo, hi } = clopper_pearson(random.heads(), random.points(), 0.95);
-            let columns = [grid.points() as f64, grid.probability().unwrap(), random.probability().unwrap(), lo, hi];
-            assert_eq!((step.columns(), step.grid_undecided, step.random_undecided), (Some(columns), None, None));
-        }
-        assert_ne!(steps[8].grid, steps[8].random);
     }
 
     /// A solver that can't tell the outcome of a launch below a speed.

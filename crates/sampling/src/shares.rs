@@ -7,7 +7,7 @@ use dynamics::Error;
 
 use crate::exact_speed::lanes::ShareLanes;
 use crate::exact_speed::{Share, share};
-use crate::fold::{Progress, Sum, fold};
+use crate::fold::{Sum, Watch, fold};
 use crate::launches::Launches;
 use crate::plan::ONLY_COINS;
 use crate::space::Space;
@@ -64,11 +64,11 @@ pub(crate) fn add_shares(
     space: &Space,
     launches: &Launches,
     range: Range<u64>,
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<Shares, Error> {
     let coin = space.coin().ok_or(ONLY_COINS)?;
     let lanes = ShareLanes::new(space);
-    fold(space, launches, range, progress, |block| {
+    fold(space, launches, range, watch, |block| {
         let mut shares = Shares::default();
         let one = |index: usize| {
             let found = share(space, coin, &block.values(index));

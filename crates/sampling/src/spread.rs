@@ -64,7 +64,7 @@ const CURVATURE: [f64; 7] = [0.0, 0.917, 1.881, 2.849, 3.817, 4.785, 5.753];
 pub enum LargestSpread {
     /// Up to this spread.
     UpTo(SufficientSpread),
-    /// Up to this spread at least. The search ended there after [`MOST_LOOKS`], and says nothing about larger spreads.
+    /// Up to this spread at least. The search ended there, after [`MOST_LOOKS`] or because it was time to end, and says nothing about larger spreads.
     AtLeast(SufficientSpread),
     /// Up to [`LARGEST_SPREAD`] at least. No larger one was looked at.
     Any(SufficientSpread),
@@ -172,21 +172,26 @@ impl Sampler<'_> {
         let look = |spread: f64| {
             let spread_out = space.with_spread(spread, inputs)?;
             let estimate = self.silent().sampled(&spread_out, plan(&spread_out, scrambled))?;
+            (self.progress)(1);
             Ok::<_, Error>(Look { spread, estimate })
         };
         let (mut here, mut looks) = (look(SMALLEST_SPREAD)?, 1);
         if !here.suffices(heads) {
             return Ok(LargestSpread::BelowSmallest(here.estimate));
         }
+        // When it is time to end, a look is left out, and this search ends before the next.
         let mut at_least = here.estimate.probability;
         // Larger spreads that were looked at, the nearest last.
         let mut ahead: Vec<Look> = Vec::new();
         while here.spread < LARGEST_SPREAD {
-            if looks >= MOST_LOOKS {
+            if looks >= MOST_LOOKS || (self.stop)() {
                 return Ok(LargestSpread::AtLeast(here.sufficient(looks, at_least)));
             }
             let Some(next) = ahead.pop() else {
-                ahead.push(look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD))?);
+                match look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD)) {
+                    Err(Error::Ended) => {}
+                    further => ahead.push(further?),
+                }
                 looks += 1;
                 continue;
             };
@@ -196,8 +201,10 @@ impl Sampler<'_> {
             } else if !suffices && next.spread <= here.spread * (1.0 + 1e-5) {
                 return Ok(LargestSpread::UpTo(here.sufficient(looks, at_least)));
             } else {
-                let middle = look((here.spread * next.spread).sqrt())?;
-                ahead.extend([next, middle]);
+                match look((here.spread * next.spread).sqrt()) {
+                    Err(Error::Ended) => {}
+                    middle => ahead.extend([next, middle?]),
+                }
                 looks += 1;
             }
         }

@@ -63,17 +63,18 @@ impl Sampler<'_> {
         }
         require_within(&range, plan.points(space)?)?;
         let sums = self.sums(space, plan, &range)?;
+        sums.require(range.end - range.start)?;
         Ok(Tally { space: *space, plan, range, sums })
     }
 
-    /// The sums of the launches with the numbers `range`.
+    /// The sums of the launches with the numbers `range`, or of those that were done when it was time to end.
     pub(crate) fn sums(&self, space: &Space, plan: Plan, range: &Range<u64>) -> Result<Sums, Error> {
         let sequences = Sequences::new(space, plan)?;
         if matches!(plan, Plan::ExactSpeed(_)) {
-            let add = |launches: &_, part| add_shares(space, launches, part, self.progress);
+            let add = |launches: &_, part| add_shares(space, launches, part, self.watch());
             return Ok(Sums::Shares(sequences.each_part(range, add)?));
         }
-        let count = |launches: &_, part| self.decider.count(space, launches, part, self.progress);
+        let count = |launches: &_, part| self.decider.count(space, launches, part, self.watch());
         Ok(Sums::Counts(sequences.each_part(range, count)?))
     }
 }
@@ -88,6 +89,19 @@ fn require_within(range: &Range<u64>, points: u64) -> Result<(), InputError> {
 }
 
 impl Sums {
+    /// The number of launches.
+    pub(crate) fn launches(&self) -> u64 {
+        match self {
+            Self::Counts(counts) => counts.iter().map(Counts::points).sum(),
+            Self::Shares(shares) => shares.iter().map(|shares| shares.launches).sum(),
+        }
+    }
+
+    /// Refuses sums of fewer launches than were wanted, because it was time to end.
+    pub(crate) fn require(&self, launches: u64) -> Result<(), Error> {
+        if self.launches() < launches { Err(Error::Ended) } else { Ok(()) }
+    }
+
     /// The estimate of `plan` over `space` from the sums of all its launches.
     pub(crate) fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, InputError> {
         let points = plan.points(space)?;

@@ -8,7 +8,7 @@
 use dynamics::error::require;
 use dynamics::{Body, Error, InputError, Phases, Toss};
 use exact::{ExactMotion, certify};
-use sampling::Progress;
+use sampling::{Progress, Sampler};
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, Decision, How, Offer};
@@ -121,10 +121,19 @@ impl Scene {
     /// # Errors
     /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if no model reaches the accuracy.
     pub fn choose_and_run(&self, registry: &Registry, progress: Progress<'_>) -> Result<(Choice, Answer), Error> {
+        self.choose_and_run_by(registry, &Sampler::exact().on_progress(progress))
+    }
+
+    /// As [`Scene::choose_and_run`], with the `sampler` of a space, which decides by the exact motion. When it is
+    /// [time to end](sampling::Sampler::until), the answer is the best estimate so far.
+    ///
+    /// # Errors
+    /// As [`Scene::choose_and_run`]; [`Error::Ended`] if there is none yet.
+    pub fn choose_and_run_by(&self, registry: &Registry, sampler: &Sampler<'_>) -> Result<(Choice, Answer), Error> {
         let mut choice = self.plan_with(registry)?.choice;
         let mut failed = Vec::new();
         loop {
-            match choice.run_reporting(self, progress) {
+            match choice.run_by(self, sampler) {
                 Err(error) if is_out_of_reach(&error) => {
                     failed.push(choice.model);
                     let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
@@ -186,10 +195,10 @@ impl Choice {
     /// # Errors
     /// The error of the solver; [`Error::Input`] for a scene that wants something else than the one planned.
     pub fn run(&self, scene: &Scene) -> Result<Answer, Error> {
-        self.run_reporting(scene, &|_| {})
+        self.run_by(scene, &Sampler::exact())
     }
 
-    fn run_reporting(&self, scene: &Scene, progress: Progress<'_>) -> Result<Answer, Error> {
+    fn run_by(&self, scene: &Scene, sampler: &Sampler<'_>) -> Result<Answer, Error> {
         let expected = "one that was made for this scene";
         let other = || InputError::Malformed { field: "choice", value: self.model.name.to_owned(), expected };
         match (&self.how, &self.model.kind, &scene.want) {
@@ -199,7 +208,7 @@ impl Choice {
             (How::Proof(stepping), _, want) => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
-                Ok(Answer::Probability(Box::new(sampled(space, *plan, scene.accuracy, progress)?)))
+                Ok(Answer::Probability(Box::new(sampled(sampler, space, *plan, scene.accuracy)?)))
             }
             _ => Err(other().into()),
         }

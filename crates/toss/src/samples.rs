@@ -4,7 +4,7 @@
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
-use sampling::{Estimate, Found, IntervalKind, Plan, Progress, Rest, Sampler, Scrambled, Space};
+use sampling::{Estimate, Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::model::{Fit, Kind, MODELS, Model, Of};
@@ -94,18 +94,22 @@ fn points_for([error, power]: [f64; 2], plan: fn(u64, u64) -> Plan, accuracy: f6
     Ok(if is_independent { needed } else { needed.next_power_of_two().max(SCRAMBLES * 2) })
 }
 
-/// Runs `plan`, with twice the launches again and again as long as the half-width of the interval exceeds the accuracy.
-pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64, progress: Progress<'_>) -> Result<Estimate, Error> {
-    let found = Sampler::exact().on_progress(progress).estimate(space, plan)?;
+/// Runs `plan` by `sampler`, with twice the launches again and again as long as the half-width of the interval exceeds the
+/// accuracy. When it is time to end, the last estimate is the answer.
+pub(crate) fn sampled(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
+    let found = sampler.estimate(space, plan)?;
     let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
     match (found.half_width(), refined(plan, accuracy)) {
-        (Some(reached), Some(more)) if reached > accuracy => {
+        (Some(reached), Some(more)) if reached > accuracy && !sampler.is_over() => {
             let is_enclosed = found.interval_kind == IntervalKind::Proven;
             if is_enclosed || found.points >= MOST_LAUNCHES || rounding_error > accuracy {
                 let of = if is_enclosed { "cells" } else { "launches" };
                 return Err(Error::NotReached { number: found.points, of, reached, accuracy });
             }
-            sampled(space, more, accuracy, progress)
+            match sampled(sampler, space, more, accuracy) {
+                Err(Error::Ended) => Ok(found),
+                refined => refined,
+            }
         }
         _ => Ok(found),
     }

@@ -32,7 +32,11 @@ pub struct Scene {
 
 /// What is wanted, and of which toss or space.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize), serde(rename_all = "kebab-case"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(rename_all = "kebab-case", try_from = "data::Wanted")
+)]
 pub enum Want {
     /// Heads or tails.
     Outcome(Toss),
@@ -170,23 +174,24 @@ impl Scene {
 
 #[cfg(feature = "serde")]
 mod data {
-    use std::fmt;
-
     use dynamics::Toss;
-    use dynamics::error::find_named;
-    use serde::de::{Error, MapAccess, Visitor};
-    use serde::{Deserialize, Deserializer};
+    use sampling::Space;
+    use serde::Deserialize;
 
-    use super::{Want, WantKind};
+    use super::Want;
 
-    /// What is wanted by its name, which is refused where it stands.
-    struct Kind(WantKind);
-
-    impl<'de> Deserialize<'de> for Kind {
-        fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-            let name = String::deserialize(from)?;
-            find_named("want", &name, &WantKind::ALL, |kind| kind.name()).copied().map(Self).map_err(D::Error::custom)
-        }
+    /// What is wanted as it stands in a file: one of these tables.
+    #[derive(Deserialize)]
+    #[serde(
+        deny_unknown_fields,
+        expecting = "a table below its name, as in [want.tilt] launch = { rate = .., speed = .. }"
+    )]
+    pub(super) struct Wanted {
+        outcome: Option<Toss>,
+        tilt: Option<Toss>,
+        attitude: Option<Toss>,
+        trace: Option<Trace>,
+        probability: Option<Space>,
     }
 
     #[derive(Deserialize)]
@@ -196,54 +201,27 @@ mod data {
         points: usize,
     }
 
-    struct Reader;
+    impl TryFrom<Wanted> for Want {
+        type Error = String;
 
-    impl<'de> Visitor<'de> for Reader {
-        type Value = Want;
-
-        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            f.write_str("a table with one of outcome, tilt, attitude, trace and probability")
-        }
-
-        fn visit_str<E: Error>(self, name: &str) -> Result<Want, E> {
-            let kind = find_named("want", name, &WantKind::ALL, |kind| kind.name()).map_err(E::custom)?;
-            let of = match kind {
-                WantKind::Probability => "the space of launches, as in [want.probability] rate_x = ..",
-                WantKind::Trace => "the toss, as in [want.trace] points = .. and [want.trace.toss.launch] rate = ..",
-                _ => "the toss, as in [want.tilt] launch = { rate = .., speed = .. }",
-            };
-            Err(E::custom(format!("want = '{name}' is a name alone: below it stands {}", of.replace("tilt", name))))
-        }
-
-        fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Want, A::Error> {
-            let Some(Kind(kind)) = table.next_key()? else {
-                return Err(A::Error::custom(
-                    "want is empty: expected one of outcome, tilt, attitude, trace and probability",
-                ));
-            };
-            let want = match kind {
-                WantKind::Outcome => Want::Outcome(table.next_value()?),
-                WantKind::Tilt => Want::Tilt(table.next_value()?),
-                WantKind::Attitude => Want::Attitude(table.next_value()?),
-                WantKind::Trace => {
-                    let Trace { toss, points } = table.next_value()?;
-                    Want::Trace { toss, points }
+        fn try_from(wanted: Wanted) -> Result<Self, String> {
+            let trace = wanted.trace.map(|Trace { toss, points }| Self::Trace { toss, points });
+            let tosses = [
+                wanted.outcome.map(Self::Outcome),
+                wanted.tilt.map(Self::Tilt),
+                wanted.attitude.map(Self::Attitude),
+                trace,
+                wanted.probability.map(Self::Probability),
+            ];
+            let mut given = tosses.into_iter().flatten();
+            match (given.next(), given.next()) {
+                (Some(want), None) => Ok(want),
+                (Some(one), Some(other)) => {
+                    let [one, other] = [one, other].map(|want| want.kind().name());
+                    Err(format!("want is '{one}' and '{other}': expected one of them"))
                 }
-                WantKind::Probability => Want::Probability(table.next_value()?),
-            };
-            match table.next_key::<String>()? {
-                None => Ok(want),
-                Some(other) => {
-                    let message = format!("want is '{}' and '{other}': expected one of them", kind.name());
-                    Err(A::Error::custom(message))
-                }
+                _ => Err("want is empty: expected one of outcome, tilt, attitude, trace and probability".to_owned()),
             }
-        }
-    }
-
-    impl<'de> Deserialize<'de> for Want {
-        fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-            from.deserialize_any(Reader)
         }
     }
 }
@@ -276,11 +254,13 @@ mod tests {
         let launch = "launch = { rate = [1, 1, 2.5], speed = 3.0 }\n";
         for (text, message) in [
             (format!("acuracy = 1\n[want.tilt]\n{launch}"), "unknown field `acuracy`"),
-            (format!("accuracy = 1\n[want.heads]\n{launch}"), "want = 'heads' is unknown; known: outcome, tilt"),
-            ("accuracy = 1\nwant = 'heads'".to_owned(), "want = 'heads' is unknown; known: outcome, tilt"),
+            (
+                format!("accuracy = 1\n[want.heads]\n{launch}"),
+                "unknown field `heads`, expected one of `outcome`, `tilt`",
+            ),
             (
                 "accuracy = 1\nwant = 'outcome'".to_owned(),
-                "want = 'outcome' is a name alone: below it stands the toss, as in [want.outcome]",
+                "invalid type: string \"outcome\", expected a table below its name, as in [want.tilt] launch",
             ),
             ("accuracy = 1\nwant = {}".to_owned(), "want is empty"),
             (

@@ -10,9 +10,10 @@ use toss::report::{Comparison, candidates};
 use toss::{ExactSolver, Formulation, Registry, Solver, SolverConfig, Stepping, Toss};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, fixed, table};
+use crate::output::{Asked, FormatArgs, fixed, table};
 use crate::quantity;
 use crate::toss_args::TossArgs;
+use crate::watch::{BudgetArgs, Watch};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -34,6 +35,8 @@ pub(crate) struct Args {
           value_parser = quantity::count::<u32>(0..=1000))]
     repeats: u32,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -45,26 +48,37 @@ struct Rows {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let toss = self.toss.toss()?;
         let exact = ExactSolver.land(&toss)?;
         let formulation = if self.formulation == "all" { None } else { Some(Formulation::named(&self.formulation)?) };
         let row = |config: &SolverConfig| -> Result<Comparison, Failure> {
             let compared = Comparison::new(registry, config, &toss, &exact)?;
             let answered = compared.failure.is_none();
-            let time_ns = answered.then(|| self.time_ns(registry, config, &toss)).transpose()?.flatten();
+            let is_measured = answered && !asked.watch.is_over();
+            let time_ns =
+                is_measured.then(|| self.time_ns(registry, config, &toss, &asked.watch)).transpose()?.flatten();
             Ok(Comparison { time_ns, ..compared })
         };
-        let rows =
-            candidates(registry, self.tolerance, self.step, formulation)?.iter().map(row).collect::<Result<_, _>>()?;
+        let candidates = candidates(registry, self.tolerance, self.step, formulation)?;
+        asked.watch.show(Some(candidates.len() as u64), "solvers");
+        let goes_on = |_: &&SolverConfig| !asked.watch.is_over();
+        let rows = candidates.iter().take_while(goes_on).map(row).inspect(|_| asked.watch.count(1));
+        let rows = rows.collect::<Result<_, _>>()?;
         let answer = Rows { cos_tilt: exact.cos_tilt, flight_time: toss.launch.flight_time(), rows };
-        Ok(self.format.print(input, &answer, || text(&answer.rows, self.repeats > 0)))
+        Ok(self.format.print(asked, &answer, || text(&answer.rows, self.repeats > 0)))
     }
 
     /// The median of the time of a flight (ns), if it is to be measured.
-    fn time_ns(&self, registry: &Registry, config: &SolverConfig, toss: &Toss) -> Result<Option<f64>, Failure> {
+    fn time_ns(
+        &self,
+        registry: &Registry,
+        config: &SolverConfig,
+        toss: &Toss,
+        watch: &Watch,
+    ) -> Result<Option<f64>, Failure> {
         let backend = registry.configured(config)?;
-        Ok(median_ns(self.repeats, || backend.solver().land(toss).is_ok()))
+        Ok(median_ns(self.repeats, watch, || backend.solver().land(toss).is_ok()))
     }
 }
 
@@ -96,7 +110,7 @@ fn text(rows: &[Comparison], has_times: bool) -> String {
 
 /// The median of the time (ns) of a call of `job`, from `repeats` measurements; `None` for 0. A measurement repeats the
 /// call until it takes long enough for the clock. Where they take long together, there are fewer.
-fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
+fn median_ns(repeats: u32, watch: &Watch, job: impl Fn() -> bool) -> Option<f64> {
     const LONG_ENOUGH_NS: f64 = 2e5;
     const LONG: Duration = Duration::from_millis(500);
     let measured = |calls: u32| {
@@ -109,7 +123,7 @@ fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
         calls *= 2;
     }
     let began = Instant::now();
-    let goes_on = |done: &u32| *done == 0 || began.elapsed() < LONG;
+    let goes_on = |done: &u32| !watch.is_over() && (*done == 0 || began.elapsed() < LONG);
     let mut times: Vec<f64> = (0..repeats).take_while(goes_on).map(|_| measured(calls) / f64::from(calls)).collect();
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied()

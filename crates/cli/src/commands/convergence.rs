@@ -3,14 +3,15 @@
 //! paper's Fig. 4.
 
 use sampling::{RunningStep, Sampler};
-use toss::Registry;
 use toss::defaults::SEED;
+use toss::{Error, Registry};
 
 use crate::failure::Failure;
-use crate::output::{Input, SeriesArgs};
+use crate::output::{Asked, SeriesArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
+use crate::watch::BudgetArgs;
 
 /// Number of steps if none is given and the grid is large enough.
 const DEFAULT_STEPS: u64 = 500;
@@ -31,20 +32,25 @@ pub(crate) struct Args {
     #[command(flatten)]
     solver: SolverArgs,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend_of_outcomes(registry)?;
         let points = space.grid_points()?;
         let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);
-        let steps = self.threads.ask(backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
+        let steps = self.threads.ask(&asked.watch, backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
+        if steps.is_empty() {
+            return Err(Error::Ended.into());
+        }
         let columns = || steps.iter().filter_map(RunningStep::columns).collect::<Vec<_>>();
         let draw = || Ok(chart::running(&format!(", {}", self.space.words(&space)), &columns())?);
-        self.series.answer_lines(input, &steps, draw)
+        self.series.answer_lines(asked, &steps, draw)
     }
 }

@@ -6,9 +6,10 @@ use toss::Error;
 
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
-use crate::output::{Input, SeriesArgs};
+use crate::output::{Asked, SeriesArgs};
 use crate::quantity;
 use crate::space_args::{SpaceArgs, ThreadArgs};
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -28,6 +29,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
 
@@ -38,7 +41,7 @@ fn probability(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
         if space.coin().is_none() {
@@ -48,8 +51,9 @@ impl Args {
         // Every number of launches has a grid of its own.
         self.space.require_grid_where_points_are(&space, |_| false)?;
         let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);
-        let (lines, reference) = self.threads.ask(Sampler::exact(), (self.launches(), "launches"), ask)?;
-        self.series.answer_lines(input, &lines, || Ok(chart::errors(&lines, &reference, &self.space.words(&space))?))
+        let (lines, reference) =
+            self.threads.ask(&asked.watch, Sampler::exact(), (self.launches(), "launches"), ask)?;
+        self.series.answer_lines(asked, &lines, || Ok(chart::errors(&lines, &reference, &self.space.words(&space))?))
     }
 
     /// The numbers of launches with which each method is run.
@@ -74,7 +78,10 @@ impl Args {
         let mut lines = Vec::new();
         for estimator in ESTIMATORS {
             for launches in self.sizes() {
-                let estimates = estimator.estimates(sampler, space, launches, self.replicates)?;
+                let estimates = match estimator.estimates(sampler, space, launches, self.replicates) {
+                    Err(Error::Ended) if !lines.is_empty() => return Ok((lines, reference)),
+                    estimates => estimates?,
+                };
                 lines.push(ErrorLine {
                     method: estimator.name,
                     launches,

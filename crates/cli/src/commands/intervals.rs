@@ -9,9 +9,10 @@ use toss::quantity::Dimension;
 use toss::{Coin, ExactMotion, TimeOfFlight, Toss, speeds_of_heads};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, row, table};
+use crate::output::{Asked, FormatArgs, row, table};
 use crate::quantity::{self, probability, shortest};
 use crate::toss_args::{CoinArgs, RateArgs};
+use crate::watch::BudgetArgs;
 
 /// The largest number of turns, with one interval each. A longer list would be of no use.
 const MOST_TURNS: f64 = 10_000.0;
@@ -38,6 +39,8 @@ pub(crate) struct Args {
           value_parser = quantity::given(Dimension::Angle))]
     tilt: Given,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -50,7 +53,7 @@ struct Speeds {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let body = self.coin.body()?;
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
@@ -65,11 +68,12 @@ impl Args {
             let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");
             return Err(Failure::usage("speed", message));
         }
-        let heads = speeds_of_heads(&toss, slowest)?.unwrap_or_default();
+        asked.watch.show(None, "searches");
+        let heads = asked.watch.aside(move || speeds_of_heads(&toss, slowest))??.unwrap_or_default();
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Speeds { heads, probability: (length / (fastest - slowest)).min(1.0) };
-        Ok(self.format.print(input, &answer, || {
+        Ok(self.format.print(asked, &answer, || {
             [answer.text()].into_iter().chain(self.rate.turn_in_words()).collect::<Vec<_>>().join("\n")
         }))
     }

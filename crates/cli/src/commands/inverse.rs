@@ -11,9 +11,9 @@ use toss::{Coin, InputError};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, ChartArgs, Format, FormatArgs, Input, row, table};
+use crate::output::{self, Asked, ChartArgs, Format, FormatArgs, row, table};
 use crate::people_file::{self, Named};
-use crate::quantity;
+use crate::quantity::{self, interval, outwards};
 use crate::toss_args::CoinArgs;
 
 #[derive(Debug, clap::Args)]
@@ -72,7 +72,7 @@ struct Person {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let coin = self.coin.coin()?;
         self.chart.validate(self.format.format == Format::Json)?;
         if self.chart.is_some() && self.counts.is_none() {
@@ -83,8 +83,8 @@ impl Args {
             (None, wanted) => Rates::wanted(coin, wanted.unwrap_or(f64::NAN))?,
         };
         let is_of_a_coin = self.coin.given_body()?.is_some();
-        let print = || self.format.print(input, &rates, || rates.text(is_of_a_coin));
-        self.chart.answer(print, || rates.drawn())
+        let print = || self.format.print(asked, &rates, || rates.text(is_of_a_coin));
+        Ok(self.chart.chart(|| rates.drawn())?.unwrap_or_else(print))
     }
 }
 
@@ -164,46 +164,52 @@ fn angle(&SameSideBias { cone, mean, interval, .. }: &SameSideBias) -> String {
     let Some(Cone { angle, interval: ends }) = cone else {
         return "none: no ψ explains this, as the whole interval is below 1/2".to_owned();
     };
-    let (angle, [least, most]) = (angle.to_degrees(), ends.map(f64::to_degrees));
+    let angle = angle.to_degrees();
+    let [least, most] = ends_in_degrees(ends);
     match mean {
-        share if share < 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
-        share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most:.2}°"),
+        share if share < 0.5 => format!("from {least}° to {most}°; none explains a share below 1/2"),
+        share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most}°"),
         _ if interval.lo <= 0.5 => {
-            format!("{angle:.2}°, from {least:.2}° to {most:.2}°, as a share of 1/2 is possible")
+            format!("{angle:.2}°, from {least}° to {most}°, as a share of 1/2 is possible")
         }
-        _ => format!("{angle:.2}°, from {least:.2}° to {most:.2}°"),
+        _ => format!("{angle:.2}°, from {least}° to {most}°"),
     }
+}
+
+/// The ends of an interval of ψ, rounded outwards.
+fn ends_in_degrees([least, most]: [f64; 2]) -> [String; 2] {
+    [outwards(least.to_degrees(), 2, false), outwards(most.to_degrees(), 2, true)]
 }
 
 impl Counted {
     /// The lines about the shares of these people, of all, and of a further one.
     fn shares(&self) -> Vec<String> {
-        let SameSideBias {
-            these_flips, mean, interval: Interval { lo, hi }, interval_kind, spread, next_person, ..
-        } = &self.found;
+        let SameSideBias { these_flips, mean, interval: whole, interval_kind, spread, next_person, .. } = &self.found;
         let number = self.people.len();
         if number == 0 {
-            return vec![format!("interval     {lo:.6} to {hi:.6} ({interval_kind})")];
+            return vec![format!("interval     {} ({interval_kind})", interval(*whole, 6))];
         }
         let spread = spread.map_or_else(
             || "not known, as all landings are the same".to_owned(),
-            |Spread { sd, interval: Interval { lo, hi }, p_value, .. }| {
+            |Spread { sd, interval: ends, p_value, .. }| {
                 let p_value = if p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") };
-                format!("{sd:.4} between people, from {lo:.4} to {hi:.4} (95 %); if all are alike, p = {p_value}")
+                let ends = interval(ends, 4);
+                format!("{sd:.4} between people, from {ends} (95 %); if all are alike, p = {p_value}")
             },
         );
         let mut lines = vec![
             format!(
-                "these flips  {:.6} to {:.6} (clopper-pearson 95 %: the mean of these {number} people, by their flips)",
-                these_flips.lo, these_flips.hi
+                "these flips  {} (clopper-pearson 95 %: the mean of these {number} people, by their flips)",
+                interval(*these_flips, 6)
             ),
             format!(
-                "all people   {mean:.6}, from {lo:.6} to {hi:.6} (beta-binomial 95 %: the mean over people, of whom these \
-                 {number} are a sample)"
+                "all people   {mean:.6}, from {} (beta-binomial 95 %: the mean over people, of whom these \
+                 {number} are a sample)",
+                interval(*whole, 6)
             ),
             format!("spread       {spread}"),
         ];
-        lines.extend(next_person.map(|Interval { lo, hi }| format!("next person  from {lo:.3} to {hi:.3} (95 %)")));
+        lines.extend(next_person.map(|ends| format!("next person  from {} (95 %)", interval(ends, 3))));
         lines
     }
 
@@ -251,7 +257,8 @@ impl Person {
     fn cells(&self) -> Vec<String> {
         let degrees =
             |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| format!("{:.2}", angle.to_degrees()));
-        let [least, most] = [0, 1].map(|end| degrees(self.cone_angle_interval.map(|angles| angles[end])));
+        let none = || ["-", "-"].map(str::to_owned);
+        let [least, most] = self.cone_angle_interval.map_or_else(none, ends_in_degrees);
         let [same, tosses] = [self.counts.same(), self.counts.tosses()].map(|count| count.to_string());
         let share = format!("{:.6}", self.probability);
         row([&self.person, &same, &tosses, &share, &degrees(self.cone_angle), &least, &most])

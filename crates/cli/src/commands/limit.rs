@@ -4,16 +4,17 @@
 
 use sampling::{LongFlightShare, Sampler};
 use serde::Serialize;
-use toss::Registry;
 use toss::defaults::SEED;
+use toss::{Error, Registry};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{Input, SeriesArgs};
+use crate::output::{Asked, SeriesArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::ThreadArgs;
 use crate::toss_args::CoinArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -30,6 +31,8 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SolverArgs,
+    #[command(flatten)]
+    budget: BudgetArgs,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -49,7 +52,7 @@ struct Line {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         self.series.validate()?;
         let coin = self.coin.coin()?;
         let backend = self.solver.backend_of_outcomes(registry)?;
@@ -57,7 +60,10 @@ impl Args {
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
-        let shares = self.threads.ask(backend.sampler(), flights, ask)?;
+        let shares = self.threads.ask(&asked.watch, backend.sampler(), flights, ask)?;
+        if shares.is_empty() {
+            return Err(Error::Ended.into());
+        }
         let is_undecided = shares.iter().any(|found| found.estimate.undecided() > 0);
         let line = |found: &LongFlightShare| Line {
             cone_angle: found.cone_angle,
@@ -69,6 +75,6 @@ impl Args {
             undecided: is_undecided.then(|| found.estimate.undecided()),
         };
         let lines: Vec<Line> = shares.iter().map(line).collect();
-        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares, &chart::named(&coin.into()))?))
+        self.series.answer_lines(asked, &lines, || Ok(chart::limit(&shares, &chart::named(&coin.into()))?))
     }
 }

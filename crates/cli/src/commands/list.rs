@@ -11,7 +11,7 @@ use toss::report::Moments;
 use toss::{Registry, SolverEntry};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, row, table};
+use crate::output::{Asked, FormatArgs, row, table};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -61,14 +61,14 @@ impl CoinLine {
     }
 }
 
-pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
+pub(crate) fn coins(args: &Args, asked: &Asked) -> Result<String, Failure> {
     const HEADING: [&str; 9] =
         ["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I2/(kg m²)", "I3/(kg m²)", "k", "what"];
     let lines = entries().map(CoinLine::of).collect::<Result<Vec<_>, _>>()?;
     let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
     sources.dedup();
     let sources = format!("\n\nsources:\n  {}", sources.join("\n  "));
-    Ok(list(args, input, ("coins", &lines), HEADING, CoinLine::cells, &sources))
+    Ok(list(args, asked, ("coins", &lines), HEADING, CoinLine::cells, &sources))
 }
 
 #[derive(Serialize)]
@@ -80,7 +80,7 @@ struct SolverLine<'a> {
     formulations: Vec<&'a str>,
 }
 
-pub(crate) fn solvers(args: &Args, registry: &Registry, input: &Input) -> String {
+pub(crate) fn solvers(args: &Args, registry: &Registry, asked: &Asked) -> String {
     let line = |entry| SolverLine {
         name: SolverEntry::name(entry),
         summary: entry.summary(),
@@ -93,7 +93,7 @@ pub(crate) fn solvers(args: &Args, registry: &Registry, input: &Input) -> String
     let cells = |line: &SolverLine<'_>| {
         [line.name.to_owned(), names(&line.schemes), names(&line.formulations), line.summary.to_owned()]
     };
-    list(args, input, ("solvers", &lines), ["name", "schemes", "formulations", "what"], cells, "")
+    list(args, asked, ("solvers", &lines), ["name", "schemes", "formulations", "what"], cells, "")
 }
 
 #[derive(Serialize)]
@@ -105,7 +105,7 @@ struct ModelLine {
     cost_ns: Option<f64>,
 }
 
-pub(crate) fn models(args: &Args, input: &Input) -> String {
+pub(crate) fn models(args: &Args, asked: &Asked) -> String {
     let line = |model: &Model| ModelLine {
         name: model.name,
         assumes: model.assumes,
@@ -115,7 +115,7 @@ pub(crate) fn models(args: &Args, input: &Input) -> String {
     let lines: Vec<ModelLine> = MODELS.iter().map(line).collect();
     let cost = |line: &ModelLine| line.cost_ns.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.0}"));
     let cells = |line: &ModelLine| [line.name.to_owned(), cost(line), line.gives.to_owned(), line.assumes.to_owned()];
-    list(args, input, ("models", &lines), ["name", "ns", "gives", "assumes"], cells, "")
+    list(args, asked, ("models", &lines), ["name", "ns", "gives", "assumes"], cells, "")
 }
 
 #[derive(Serialize)]
@@ -131,7 +131,7 @@ struct SpaceLine {
     grid_points: u64,
 }
 
-pub(crate) fn spaces(args: &Args, input: &Input) -> Result<String, Failure> {
+pub(crate) fn spaces(args: &Args, asked: &Asked) -> Result<String, Failure> {
     let mut lines = Vec::new();
     for (name, DescribedSpace { description, space }) in named_spaces() {
         let [rate_x, rate_y, rate_z, speed, gravity, tilt] =
@@ -145,13 +145,13 @@ pub(crate) fn spaces(args: &Args, input: &Input) -> Result<String, Failure> {
         let points = grid_points.to_string();
         [*name, rate_x, rate_y, rate_z, speed, gravity, tilt, &points, description].map(str::to_owned)
     };
-    Ok(list(args, input, ("spaces", &lines), ["name", x, y, z, v, g, t, "launches", "what"], cells, ""))
+    Ok(list(args, asked, ("spaces", &lines), ["name", x, y, z, v, g, t, "launches", "what"], cells, ""))
 }
 
 /// The lines as `{"name":[..],..}`, or as a table with its heading and a text below it.
 fn list<T: Serialize, const N: usize>(
     args: &Args,
-    input: &Input,
+    asked: &Asked,
     (name, lines): (&str, &[T]),
     heading: [&str; N],
     cells: impl Fn(&T) -> [String; N],
@@ -159,5 +159,5 @@ fn list<T: Serialize, const N: usize>(
 ) -> String {
     let rows =
         || std::iter::once(row(heading)).chain(lines.iter().map(|line| cells(line).to_vec())).collect::<Vec<_>>();
-    args.format.print(input, &BTreeMap::from([(name, lines)]), || table(&rows()) + below)
+    args.format.print(asked, &BTreeMap::from([(name, lines)]), || table(&rows()) + below)
 }

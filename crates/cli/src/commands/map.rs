@@ -8,10 +8,11 @@ use toss::{InputError, Registry};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, Input, SeriesArgs};
+use crate::output::{self, Asked, DataFormat, SeriesArgs};
 use crate::quantity::{self, shortest};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -33,11 +34,13 @@ pub(crate) struct Args {
     #[command(flatten)]
     solver: SolverArgs,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend_of_outcomes(registry)?;
@@ -49,10 +52,10 @@ impl Args {
         self.space.require_grid_where_points_are(&space, |of| axes.contains(&of) || lays_grid(plan, of))?;
         require_few(&backend.sampler(), nodes.saturating_mul(launches_of(plan, &node)?))?;
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
-        let mapped = self.threads.ask(backend.sampler(), (nodes, "nodes"), ask)?;
+        let mapped = self.threads.ask(&asked.watch, backend.sampler(), (nodes, "nodes"), ask)?;
         let data = |format| match format {
             DataFormat::Csv => csv(&mapped),
-            DataFormat::Json => output::json(input, &Nodes::from(&mapped)),
+            DataFormat::Json => output::json(asked, &Nodes::from(&mapped)),
         };
         self.series.answer(data, || Ok(chart::map(&mapped, &space, &self.space.words(&space))?))
     }
@@ -70,14 +73,15 @@ fn launches_of(plan: Plan, space: &Space) -> Result<u64, InputError> {
 }
 
 /// Formats the map as CSV with one line per node. Undecided launches have a column if there are any, and a node where no
-/// launch is decided has no probability.
+/// launch is decided has no probability. One that was not computed, because it was time to end, has no line.
 fn csv(map: &Map) -> String {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
     let is_undecided = map.nodes.iter().any(|node| node.undecided > 0);
     let undecided = |what: &str| if is_undecided { format!(",{what}") } else { String::new() };
     let heading = format!("{},{},probability{}\n", across.name(), up.name(), undecided("undecided"));
     let places = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
-    let lines = places.zip(&map.nodes).map(|((column, row), node)| {
+    let is_computed = |node: &Node| node.probability.is_some() || node.undecided > 0;
+    let lines = places.zip(&map.nodes).filter(|(_, node)| is_computed(node)).map(|((column, row), node)| {
         let probability = node.probability.map_or_else(String::new, shortest);
         let [column, row] = [*column, *row].map(shortest);
         format!("{column},{row},{probability}{}\n", undecided(&node.undecided.to_string()))

@@ -14,8 +14,9 @@ use toss::report::Estimate;
 use crate::estimate::text;
 use crate::failure::Failure;
 use crate::json::plain_json;
-use crate::output::{self, FormatArgs, Input};
+use crate::output::{self, Asked, FormatArgs};
 use crate::space_args::ThreadArgs;
+use crate::watch::Watch;
 
 /// Options for a part of an estimate.
 #[derive(Debug, clap::Args)]
@@ -63,7 +64,7 @@ impl ShardArgs {
         &self,
         (space, plan): (&Space, Plan),
         sampler: Sampler<'_>,
-        threads: &ThreadArgs,
+        (threads, watch): (&ThreadArgs, &Watch),
     ) -> Result<String, Failure> {
         let (Some(shard), Some(path)) = (self.shard, &self.out) else {
             return Err(Failure::usage("out", "--out needs --shard"));
@@ -77,8 +78,8 @@ impl ShardArgs {
         let launches = range.end - range.start;
         let there = already_there(path, space, plan, &range)?;
         if !there {
-            let tally =
-                threads.ask(sampler, (launches, "launches"), |sampler| sampler.tally(space, plan, range.clone()))?;
+            let tally = threads
+                .ask(watch, sampler, (launches, "launches"), |sampler| sampler.tally(space, plan, range.clone()))?;
             let text = plain_json(&tally);
             if whole_file::leads_to(path) {
                 return Ok(text);
@@ -126,7 +127,7 @@ struct Part {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let mut parts = self.parts.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
         // Only the first and the last part say what is missing at the ends, so all of them have to be of one plan first.
         let first = parts.remove(0);
@@ -147,7 +148,7 @@ impl Args {
         }
         let found = whole.tally.estimate()?;
         let answer = Estimate { found: &found, integrated: None };
-        Ok(self.format.print(input, &answer, || text(&found, "exact")))
+        Ok(self.format.print(asked, &answer, || text(&found, "exact")))
     }
 }
 

@@ -9,7 +9,7 @@ use toss::trace::MOST_POINTS;
 use toss::{QuaternionSolver, Registry, Scene, Want};
 
 use crate::failure::Failure;
-use crate::output::{self, FormatArgs, Input, row, table};
+use crate::output::{self, Asked, FormatArgs, row, table};
 use crate::quantity;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
@@ -52,13 +52,13 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let scene = match &self.scene {
             Some(path) => scene_file(path)?,
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        Ok(self.format.print(input, &decision, || text(&decision, &scene)))
+        Ok(self.format.print(asked, &decision, || text(&decision, &scene)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -108,7 +108,7 @@ fn text(Decision { choice, passed_over }: &Decision, scene: &Scene) -> String {
             format!("undecided where |cos θ| ≤ {:e}", scene.accuracy)
         }
         (Want::Outcome(_), _) => "proven".to_owned(),
-        (_, error) if choice.is_certified() => format!("error at most {}, proven", rounded_up(error)),
+        (_, error) if choice.is_certified() => format!("error at most {}, proven", quantity::rounded_up(error)),
         (_, error) => format!("error {error:.1e}"),
     };
     let mut rows = vec![
@@ -120,11 +120,4 @@ fn text(Decision { choice, passed_over }: &Decision, scene: &Scene) -> String {
     let others = passed_over.iter().zip(heading);
     rows.extend(others.map(|((model, why), heading)| row([heading, &model.to_string(), &why.to_string()])));
     table(&rows)
-}
-
-/// A bound > 0 with two digits, of which the last is rounded up.
-fn rounded_up(bound: f64) -> String {
-    let shown = format!("{bound:.1e}");
-    let is_below = shown.parse().is_ok_and(|shown: f64| shown < bound);
-    if is_below { format!("{:.1e}", bound + 0.05 * 10f64.powf(bound.log10().floor())) } else { shown }
 }

@@ -5,7 +5,7 @@ use sampling::Power;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, row, table};
+use crate::output::{Asked, FormatArgs, row, table};
 use crate::quantity;
 
 /// Flips of each person in the table of people.
@@ -68,7 +68,7 @@ struct Experiment {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let wanted = Power::new(self.share, self.sd, self.power)?;
         #[expect(clippy::cast_precision_loss, reason = "at most 10^12")]
         let [people, flips] = [self.people, self.flips].map(|count| count.map(|count| count as f64));
@@ -82,7 +82,7 @@ impl Args {
         });
         let flips_needed = people.filter(|_| flips.is_none()).map(|people| wanted.flips(people));
         let answer = Answer { wanted, flips_of_one: wanted.flips_of_one(), needed, flips_needed, experiment };
-        Ok(self.format.print(input, &answer, || self.text(&answer)))
+        Ok(self.format.print(asked, &answer, || self.text(&answer)))
     }
 
     fn text(&self, answer: &Answer) -> String {

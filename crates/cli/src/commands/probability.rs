@@ -9,10 +9,11 @@ use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
 use crate::commands::parts::ShardArgs;
 use crate::estimate::text;
 use crate::failure::Failure;
-use crate::output::{Format, FormatArgs, Input};
+use crate::output::{Asked, Format, FormatArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
+use crate::watch::{BudgetArgs, Watch};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -36,6 +37,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     shard: ShardArgs,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -48,10 +51,10 @@ fn help_of_accuracy() -> String {
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let space = self.space.space()?;
         if self.prove {
-            return self.run_proving(&space, registry, input);
+            return self.run_proving(&space, registry, asked);
         }
         let backend = self.solver.backend_of_outcomes(registry)?;
         if let (true, Some(method)) = (self.shard.is_given(), self.method) {
@@ -59,22 +62,22 @@ impl Args {
                 return Err(Failure::usage("format", "--format has no effect with --shard: the part itself is JSON"));
             }
             let plan = self.plan_of(method, &space)?;
-            return self.shard.write((&space, plan), backend.sampler(), &self.threads);
+            return self.shard.write((&space, plan), backend.sampler(), (&self.threads, &asked.watch));
         }
         let found = match self.method {
-            Some(method) => self.by_method(method, &space, &backend)?,
-            None => self.by_plan(&space, &backend)?,
+            Some(method) => self.by_method(method, &space, &backend, &asked.watch)?,
+            None => self.by_plan(&space, &backend, &asked.watch)?,
         };
         let (method, accuracy) = (found.plan.method(), self.accuracy(&space));
         let chosen = || format!("\nmethod       {method}, chosen for an error of {accuracy:e}");
-        Ok(self.format.print(input, &report::Estimate { found: &found, integrated: None }, || {
+        Ok(self.format.print(asked, &report::Estimate { found: &found, integrated: None }, || {
             let chosen = if self.method.is_none() { chosen() } else { String::new() };
-            text(&found, backend.solver().name()) + &chosen + &not_reached(&found) + &self.turn_in_words()
+            text(&found, backend.solver().name()) + &chosen + &not_reached(&found, &asked.watch) + &self.turn_in_words()
         }))
     }
 
     /// The answer of which each outcome is proven by integration.
-    fn run_proving(&self, space: &Space, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    fn run_proving(&self, space: &Space, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let proving = Proving::new(self.solver.prover(registry)?)?;
         if self.shard.is_given() {
             return Err(Failure::usage(
@@ -85,9 +88,9 @@ impl Args {
         let needed = || Failure::usage("method", "--prove needs --method: a plan takes the exact motion");
         let plan = self.plan_of(self.method.ok_or_else(needed)?, space)?;
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
-        let found = self.threads.ask(Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
+        let found = self.threads.ask(&asked.watch, Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
         let counts = proving.counts();
-        Ok(self.format.print(input, &report::Estimate { found: &found, integrated: Some(&counts) }, || {
+        Ok(self.format.print(asked, &report::Estimate { found: &found, integrated: Some(&counts) }, || {
             let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.by(stage)));
             let counted = format!("\nproven by    integration: {}", stages.join(", "));
             text(&found, proving.name()) + &counted + &self.turn_in_words()
@@ -111,39 +114,37 @@ impl Args {
         Ok(plan)
     }
 
-    fn by_method(&self, method: Method, space: &Space, backend: &Backend) -> Result<Estimate, Failure> {
+    fn by_method(&self, method: Method, space: &Space, backend: &Backend, watch: &Watch) -> Result<Estimate, Failure> {
         let plan = self.plan_of(method, space)?;
         if let Plan::Enclosure { .. } = plan {
-            return self.enclosed(backend.sampler(), space, plan);
+            return self.enclosed(backend.sampler(), space, plan, watch);
         }
         let launches = (plan.points(space)?, "launches");
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
-        self.threads.ask(backend.sampler(), launches, ask)
+        self.threads.ask(watch, backend.sampler(), launches, ask)
     }
 
     /// The estimate of a plan by enclosure. Who waits sees the cells and how narrow the enclosure is.
-    fn enclosed(&self, sampler: Sampler<'_>, space: &Space, plan: Plan) -> Result<Estimate, Failure> {
-        let found = self.threads.count("cells", |counter| {
-            let progress = |more| counter.inc(more);
-            let narrowed = |interval: Interval| {
-                counter.set_message(format!("cells, the probability is known to {:.1e}", 0.5 * interval.width()));
-            };
-            sampler.on_progress(&progress).on_narrowing(&narrowed).estimate(space, plan)
-        });
-        Ok(found??)
+    fn enclosed(&self, sampler: Sampler<'_>, space: &Space, plan: Plan, watch: &Watch) -> Result<Estimate, Failure> {
+        watch.show(None, "cells");
+        let narrowed = |interval: Interval| {
+            watch.say(format!("cells, the probability is known to {:.1e}", 0.5 * interval.width()));
+        };
+        let estimate = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
+        Ok(self.threads.run(|| watch.ask(sampler.on_narrowing(&narrowed), estimate))??)
     }
 
     /// The estimate by the method and with the launches that the planner chooses for the accuracy.
-    fn by_plan(&self, space: &Space, backend: &Backend) -> Result<Estimate, Failure> {
+    fn by_plan(&self, space: &Space, backend: &Backend, watch: &Watch) -> Result<Estimate, Failure> {
         if !backend.sampler().is_exact() {
             return Err(Failure::usage("solver", "--solver needs --method: a plan takes the exact motion"));
         }
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        let (_, answer) = self
-            .threads
-            .count("launches", |counter| scene.choose_and_run(Registry::standard(), &|more| counter.inc(more)))??;
+        watch.show(None, "launches");
+        let run = |sampler: &Sampler<'_>| scene.choose_and_run_by(Registry::standard(), sampler);
+        let (_, answer) = self.threads.run(|| watch.ask(backend.sampler(), run))??;
         if let Answer::Probability(found) = answer { Ok(*found) } else { Err(no_sample()) }
     }
 
@@ -152,14 +153,17 @@ impl Args {
     }
 }
 
-/// A line that says so if an enclosure took too many cells for its accuracy.
-fn not_reached(found: &Estimate) -> String {
+/// A line that says so if an enclosure did not reach its accuracy.
+fn not_reached(found: &Estimate, watch: &Watch) -> String {
     match (found.plan, found.half_width()) {
         (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked() => {
             let cells = found.points;
-            format!(
-                "\naccuracy     {reached:.1e}, and not the {accuracy:e} that was asked for: more cells than {cells} are too many, or roundings forbid it"
-            )
+            let why = match watch.ended() {
+                Some(ended) => ended.in_words().to_owned(),
+                None => format!("more cells than {cells} are too many, or roundings forbid it"),
+            };
+            let reached = quantity::rounded_up(reached);
+            format!("\naccuracy     {reached}, and not the {accuracy:e} that was asked for: {why}")
         }
         _ => String::new(),
     }

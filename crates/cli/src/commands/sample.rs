@@ -1,11 +1,12 @@
 //! `unfair-toss sample` prints single launches of a space and how each lands, as CSV or as lines of JSON, so that other
 //! programs can work with them. With `-` it reads the launches from standard input instead.
 //!
-//! Rows are printed as they are solved, some thousands at a time, so that their number is not limited by the memory. A launch
+//! Rows are printed as they are solved, as many at a time as take a moment, so that their number is not limited by the memory. A launch
 //! that was read is answered before the next one is waited for, so that another program can ask one after the other. Every
 //! mistake of a row that was read is reported with its line and column, since such files have many lines.
 
 use std::io::{Read, Write};
+use std::time::{Duration, Instant};
 
 use dynamics::Thrown;
 use dynamics::thrown::Field;
@@ -20,13 +21,18 @@ use whole_file::{Row as Cells, Table, TableError};
 use crate::Streams;
 use crate::failure::Failure;
 use crate::json::{plain_json, without_sign_of_zero};
-use crate::output::DataFormat;
+use crate::output::{Asked, DataFormat};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs, require_few};
+use crate::watch::{BudgetArgs, Watch};
 
-/// Number of launches that are solved together.
+/// The largest number of launches that are solved together, and the first.
 const CHUNK: usize = 1 << 14;
+const FIRST_CHUNK: usize = 16;
+
+/// More launches are solved together as long as they take less time than this.
+const SOON: Duration = Duration::from_millis(50);
 
 /// Options that describe launches, which `-` reads instead.
 const OF_A_SPACE: [&str; 14] = [
@@ -55,6 +61,8 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SolverArgs,
+    #[command(flatten)]
+    budget: BudgetArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
     format: DataFormat,
@@ -62,13 +70,13 @@ pub(crate) struct Args {
 
 impl Args {
     /// Prints the rows as they come.
-    pub(crate) fn run(&self, registry: &Registry, streams: &mut Streams<'_>) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked, streams: &mut Streams<'_>) -> Result<String, Failure> {
         let backend = self.solver.backend(registry)?;
         let Streams { input, out, .. } = streams;
         let mut writer = Writer::new(&mut **out, self.format);
         let written = self.threads.run(|| match self.from {
-            Some(_) => self.answer_input(&backend, &mut **input, &mut writer),
-            None => self.answer_space(&backend, &mut writer),
+            Some(_) => self.answer_input(&backend, &mut **input, &mut writer, &asked.watch),
+            None => self.answer_space(&backend, &mut writer, &asked.watch),
         })?;
         if written.is_ok() {
             writer.head()?;
@@ -79,11 +87,17 @@ impl Args {
         Ok(String::new())
     }
 
-    fn answer_input(&self, backend: &Backend, input: &mut dyn Read, writer: &mut Writer<'_>) -> Result<(), Failure> {
+    fn answer_input(
+        &self,
+        backend: &Backend,
+        input: &mut dyn Read,
+        writer: &mut Writer<'_>,
+        watch: &Watch,
+    ) -> Result<(), Failure> {
         let body = self.space.coin.body()?;
         let mut table = Table::new(input).map_err(wrong)?;
         let columns = columns(table.heading())?;
-        while !writer.is_closed() {
+        while !writer.is_closed() && !watch.is_over() {
             let mut chunk = Vec::new();
             // Up to the last launch that has arrived.
             let end = loop {
@@ -106,19 +120,25 @@ impl Args {
         Ok(())
     }
 
-    fn answer_space(&self, backend: &Backend, writer: &mut Writer<'_>) -> Result<(), Failure> {
+    fn answer_space(&self, backend: &Backend, writer: &mut Writer<'_>, watch: &Watch) -> Result<(), Failure> {
         let space = self.space.space()?;
         let plan = self.plan()?;
-        require_few(&backend.sampler(), plan.points(&space)?)?;
+        let points = plan.points(&space)?;
+        require_few(&backend.sampler(), points)?;
         self.space.require_grid_where_points_are(&space, |_| plan == Plan::Grid)?;
-        let mut launches = space.drawn(plan)?;
-        while !writer.is_closed() {
-            let blocks = launches.by_ref().take(CHUNK.div_ceil(512));
-            let chunk: Vec<Given> = blocks.flatten().map(|drawn| given(&space, &drawn)).collect();
+        watch.show_beside_rows(Some(points), "launches");
+        let (mut launches, mut size) = (space.drawn(plan)?.flatten(), FIRST_CHUNK);
+        while !writer.is_closed() && !watch.is_over() {
+            let began = Instant::now();
+            let chunk: Vec<Given> = launches.by_ref().take(size).map(|drawn| given(&space, &drawn)).collect();
             if chunk.is_empty() {
                 return Ok(());
             }
             answer(backend, &chunk, writer)?;
+            watch.count(chunk.len() as u64);
+            if began.elapsed() < SOON {
+                size = CHUNK.min(2 * size);
+            }
         }
         Ok(())
     }
@@ -156,7 +176,8 @@ fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<
     let first = writer.rows();
     let one = |(given, index): (&Given, u64)| landed(backend, given, first + index);
     let numbered: Vec<(&Given, u64)> = launches.iter().zip(0..).collect();
-    let rows: Vec<Result<Row, Error>> = numbered.into_par_iter().with_min_len(64).map(one).collect();
+    let rows: Vec<Result<Row, Error>> =
+        numbered.into_par_iter().with_min_len(launches.len().div_ceil(256)).map(one).collect();
     let failed = rows.iter().position(Result::is_err).unwrap_or(rows.len());
     let mut rows = rows.into_iter();
     writer.write(&rows.by_ref().take(failed).filter_map(Result::ok).collect::<Vec<Row>>())?;

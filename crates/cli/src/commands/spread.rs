@@ -3,7 +3,7 @@
 //! smaller spreads were looked at.
 
 use sampling::{
-    Coordinate, HAND, Interval, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Scrambled, Space,
+    Coordinate, HAND, Interval, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Sampler, Scrambled, Space,
     SufficientSpread,
 };
 use serde::Serialize;
@@ -11,10 +11,11 @@ use toss::defaults::SEED;
 use toss::{Error, Outcome};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input};
+use crate::output::{Asked, FormatArgs};
 use crate::quantity;
 use crate::space_args::ThreadArgs;
 use crate::toss_args::TossArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -31,6 +32,8 @@ pub(crate) struct Args {
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,
+    #[command(flatten)]
+    budget: BudgetArgs,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -53,27 +56,36 @@ struct Alone {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let space = Space::of(&self.toss.toss()?)?;
-        let spreads = self.threads.run(|| self.answers(&space))??;
-        Ok(self.format.print(input, &spreads, || {
+        let spreads = {
+            asked.watch.show(None, "spreads");
+            let answers = |sampler: &Sampler<'_>| self.answers(sampler, &space);
+            self.threads.run(|| asked.watch.ask(Sampler::exact(), answers))??
+        };
+        Ok(self.format.print(asked, &spreads, || {
             let lines = text(self.heads, &spreads);
             lines.into_iter().chain(self.toss.turn_in_words()).collect::<Vec<_>>().join("\n")
         }))
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.
-    fn answers(&self, space: &Space) -> Result<Spreads, Error> {
-        let sampler = sampling::Sampler::exact();
+    fn answers(&self, sampler: &Sampler<'_>, space: &Space) -> Result<Spreads, Error> {
         let default = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
         let scrambled = Scrambled::new(self.points.unwrap_or(default), self.seed);
         let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
-        let alone = HAND.map(|of| Ok(Alone { input: of.name(), found: largest(&[of])? }));
         let together = largest(&HAND)?;
+        let mut alone = Vec::new();
+        for of in HAND {
+            match largest(&[of]) {
+                Err(Error::Ended) => break,
+                found => alone.push(Alone { input: of.name(), found: found? }),
+            }
+        }
         let estimate = together.sufficient().map(|found| &found.estimate);
         let interval = estimate.and_then(|found| found.interval);
         let interval_kind = estimate.map(|found| found.interval_kind.to_string());
-        Ok(Spreads { together, interval, interval_kind, alone: alone.into_iter().collect::<Result<_, Error>>()? })
+        Ok(Spreads { together, interval, interval_kind, alone })
     }
 }
 
@@ -81,7 +93,7 @@ fn text(heads: f64, Spreads { together, alone, .. }: &Spreads) -> Vec<String> {
     let mut lines = vec![format!("spread       {}", in_words(together))];
     if let Some(SufficientSpread { estimate, looks, at_least, .. }) = together.sufficient() {
         lines.push(format!("P(heads)     {} at this spread", quantity::probability(estimate.probability, 6)));
-        let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
+        let interval = estimate.interval.map(|interval| quantity::interval(interval, 6) + " ");
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
         let (shown, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
         lines

@@ -4,9 +4,10 @@ use toss::report::{Landing, Moments};
 use toss::{Body, Margin, Registry, Sensitivity, TimeOfFlight, Toss, Work};
 
 use crate::failure::Failure;
-use crate::output::{FormatArgs, Input, fixed};
-use crate::quantity::shortest;
+use crate::output::{Asked, FormatArgs, fixed};
+use crate::quantity::{rounded_up, shortest};
 use crate::toss_args::FlightArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -20,11 +21,13 @@ pub(crate) struct Args {
     #[arg(long)]
     prove: bool,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked) -> Result<String, Failure> {
         let (toss, landing) = if self.prove {
             let (toss, solver) = (self.flight.toss.toss()?, self.flight.solver.prover(registry)?);
             (toss, Landing::integrated(&toss, &solver)?)
@@ -32,10 +35,18 @@ impl Args {
             let (toss, backend) = self.flight.parts(registry)?;
             (toss, Landing::new(&toss, &backend)?)
         };
-        let has_margin = self.margin || toss.body.coin().is_some();
-        let landing = if has_margin { landing.with_margin(&toss)? } else { landing };
+        let landing = if toss.body.coin().is_some() {
+            landing.with_margin(&toss)?
+        } else if self.margin {
+            asked.watch.show(None, "margins");
+            let searched = landing.clone();
+            // Out of time, the answer is the one without a margin.
+            asked.watch.aside(move || searched.with_margin(&toss)).unwrap_or(Ok(landing))?
+        } else {
+            landing
+        };
         let landing = landing.with_sensitivity(&toss)?.rounded(&toss, &self.flight.toss.rounding()?)?;
-        Ok(self.format.print(input, &landing, || text(&landing, &toss, self.flight.toss.turn_in_words())))
+        Ok(self.format.print(asked, &landing, || text(&landing, &toss, self.flight.toss.turn_in_words())))
     }
 }
 
@@ -55,11 +66,16 @@ fn text(landing: &Landing, toss: &Toss, turn: Option<String>) -> String {
         format!("solver       {}{scheme}", landing.solver),
     ]);
     if let (Some(cos_tilt), Some(attitude)) = (landing.error_bound, landing.attitude_error_bound) {
-        lines.push(format!("error bound  {cos_tilt:.1e} of cos θ, {attitude:.1e} of the attitude's quaternion"));
+        lines.push(format!(
+            "error bound  {} of cos θ, {} of the attitude's quaternion",
+            rounded_up(cos_tilt),
+            rounded_up(attitude)
+        ));
     }
     // Where it can be seen in the attitude.
     if let Some(turn) = landing.unit_error.flatten().filter(|turn| *turn > 1e-10) {
-        lines.push(format!("unit error   at most {turn:.1e} rad of the attitude, by the conversion of units"));
+        lines
+            .push(format!("unit error   at most {} rad of the attitude, by the conversion of units", rounded_up(turn)));
     }
     if landing.norm_error > 0.0 {
         lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", landing.norm_error));

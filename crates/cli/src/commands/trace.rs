@@ -12,9 +12,11 @@ use toss::{Error, QuaternionSolver, Registry, Solver, Toss, TracePoint, trace};
 use crate::Streams;
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, Input, SeriesArgs};
+use crate::json::plain_json;
+use crate::output::{self, Asked, DataFormat, SeriesArgs};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -31,6 +33,8 @@ pub(crate) struct Args {
     /// then taylor by default
     #[arg(long)]
     prove: bool,
+    #[command(flatten)]
+    budget: BudgetArgs,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -50,32 +54,33 @@ struct Point {
 #[derive(Serialize)]
 struct Points<'a> {
     solver: &'a str,
-    points: &'a [Point],
+    points: [Point; 0],
 }
 
 impl Args {
-    pub(crate) fn run(&self, registry: &Registry, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, asked: &Asked, streams: &mut Streams<'_>) -> Result<String, Failure> {
         self.series.validate()?;
         let toss = self.flight.toss.toss()?;
         let prover = self.prove.then(|| self.flight.solver.prover(registry)).transpose()?;
         let backend = self.flight.solver.backend_of_outcomes(registry)?;
         let solver = backend.solver();
-        let mut points = self.points(&toss, solver, prover.as_ref())?;
-        if self.series.is_csv_alone() {
-            return print_csv(points, streams.out);
-        }
-        let points = points.by_ref().collect::<Result<Vec<_>, _>>()?;
-        let data = |format| match format {
-            DataFormat::Csv => csv(&points),
-            DataFormat::Json => output::json(input, &Points { solver: solver.name(), points: &points }),
-        };
-        self.series.answer(data, || {
+        let points = self.points(&toss, solver, prover.as_ref())?;
+        let chart = self.series.chart(|| {
             // As many points as the motion needs, whatever number is printed.
             let drawn = trace(solver, &toss, chart::points_to_draw(&toss))?;
             let scheme = solver.stepping().map(|stepping| format!(", {}", stepping.scheme())).unwrap_or_default();
             let by = format!("solver {}{scheme}", solver.name());
             Ok(chart::flight(&drawn, &toss, solver.tilt(&toss)?.outcome(), (&self.flight.toss.words(), &by))?)
-        })
+        })?;
+        if let Some(chart) = chart {
+            return Ok(chart);
+        }
+        asked.watch.show_beside_rows(self.points.map(|points| points as u64), "points");
+        let rows = Rows { format: self.series.format(), solver: solver.name(), asked };
+        let closed_or = |printed: std::io::Result<()>| whole_file::unless_closed(printed).map_err(Failure::Print);
+        let mut failed = None;
+        closed_or(rows.print(points, streams.out, &mut failed))?;
+        failed.map_or_else(|| Ok(String::new()), Err)
     }
 
     /// The points, with their bounds if there is a `prover`. Each is computed when it is asked for.
@@ -102,39 +107,69 @@ impl Args {
     }
 }
 
-/// Prints the points as they are computed. What was computed before an error is printed before it, and a reader who has gone
-/// wants no more.
-fn print_csv(
-    points: impl Iterator<Item = Result<Point, Error>>,
-    out: &mut (dyn Write + Send),
-) -> Result<String, Failure> {
-    match write_csv(points.map(|point| point.map(|point| point.numbers())), out) {
-        Ok(None) => Ok(String::new()),
-        Ok(Some(error)) => Err(error.into()),
-        Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => Ok(String::new()),
-        Err(error) => Err(Failure::Print(error)),
+/// How the points are printed: each as soon as it is computed.
+struct Rows<'a> {
+    format: DataFormat,
+    solver: &'a str,
+    asked: &'a Asked,
+}
+
+impl Rows<'_> {
+    /// Prints the points that are computed until one has `failed` or it is time to end.
+    fn print(
+        &self,
+        points: impl Iterator<Item = Result<Point, Error>>,
+        out: &mut (dyn Write + Send),
+        failed: &mut Option<Failure>,
+    ) -> std::io::Result<()> {
+        let watch = &self.asked.watch;
+        let goes_on = points.take_while(|_| !watch.is_over()).inspect(|_| watch.count(1));
+        let mut known = goes_on.map_while(|point| point.map_err(|error| *failed = Some(error.into())).ok());
+        let Some(first) = known.next() else {
+            drop(known);
+            failed.get_or_insert(Error::Ended.into());
+            return Ok(());
+        };
+        let points = std::iter::once(first).chain(known);
+        match self.format {
+            DataFormat::Csv => write_csv(points, &mut *out)?,
+            DataFormat::Json => {
+                self.write_json(points, &mut *out)?;
+                // Where the points end, the object says why.
+                if let Some(failure) = failed.take() {
+                    write!(out, ",\"error\":{}", plain_json(&failure.json()))?;
+                    *failed = Some(Failure::Said(Box::new(failure)));
+                } else if let Some(ended) = watch.ended() {
+                    write!(out, ",\"ended\":\"{}\"", ended.name())?;
+                }
+                writeln!(out, "}}")?;
+            }
+        }
+        out.flush()
+    }
+
+    /// The object up to the end of its points.
+    fn write_json(&self, points: impl Iterator<Item = Point>, out: &mut (dyn Write + Send)) -> std::io::Result<()> {
+        let whole = output::json(self.asked, &Points { solver: self.solver, points: [] });
+        let start = whole.split_inclusive("\"points\":[").next().unwrap_or_default();
+        write!(out, "{start}")?;
+        for (index, point) in points.enumerate() {
+            write!(out, "{}{}", if index == 0 { "" } else { "," }, plain_json(&point))?;
+        }
+        write!(out, "]")
     }
 }
 
-/// Writes rows of numbers below their heading, up to the first that could not be computed, whose error is returned.
-fn write_csv(rows: impl Iterator<Item = Result<Vec<f64>, Error>>, out: impl Write) -> std::io::Result<Option<Error>> {
+/// Writes rows of numbers below their heading.
+fn write_csv(points: impl Iterator<Item = Point>, out: impl Write) -> std::io::Result<()> {
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(out);
-    let mut failed = None;
-    for (index, row) in rows.enumerate() {
-        let row = match row {
-            Ok(row) => row,
-            Err(error) => {
-                failed = Some(error);
-                break;
-            }
-        };
+    for (index, row) in points.map(|point| point.numbers()).enumerate() {
         if index == 0 {
             writer.write_record(COLUMNS.split(',').take(row.len())).map_err(of_output)?;
         }
         writer.serialize(row).map_err(of_output)?;
     }
-    writer.flush()?;
-    Ok(failed)
+    writer.flush()
 }
 
 /// The error of the output, which alone can fail: numbers are always CSV.
@@ -155,9 +190,3 @@ impl Point {
 /// The columns of CSV: time (s), attitude quaternion, Euler angles (rad), the coin's normal and a vector fixed in its face (both
 /// in LF), and cos θ, where θ is the angle between the normal and the vertical; with `--prove` also the bounds.
 const COLUMNS: &str = "time,w,x,y,z,alpha,beta,gamma,normal_x,normal_y,normal_z,face_x,face_y,face_z,cos_tilt,error_bound,attitude_error_bound";
-
-fn csv(points: &[Point]) -> String {
-    let mut text = Vec::new();
-    write_csv(points.iter().map(|point| Ok(point.numbers())), &mut text).expect("memory takes every byte");
-    String::from_utf8(text).expect("numbers are UTF-8")
-}

@@ -55,6 +55,8 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method enclosure --accuracy 1e-6",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--space tails --method random --points 9 --seed 18446744073709551615",
+            "--space tails --method random --points 1e12 --seconds 50ms",
+            "--rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --speed 3:5 --tilt 0.1 --method enclosure --seconds 0.1",
             "--turn 30 --psi 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
             "--turn 30 --psi 1 --speed 3 --spread 5% --accuracy 1e-2",
             "--rate-x 9 --rate-y 5 --rate-z 3 --speed 3:5 --method random --points 9 --solver quaternion --scheme rk4 --step 0.1",
@@ -151,7 +153,8 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
             collect(&answer, "", &mut found);
         }
         let (input, own): (Fields, Fields) = found.into_iter().partition(|(path, _)| path.starts_with("input."));
-        let (general, own): (Fields, Fields) = own.into_iter().partition(|(path, _)| path == "schema");
+        let (general, own): (Fields, Fields) =
+            own.into_iter().partition(|(path, _)| path == "schema" || path == "ended");
         every.extend(general);
         for (path, types) in input {
             let to = if path == "input.command" { &mut every } else { &mut inputs };
@@ -207,6 +210,7 @@ fn bad_input_of_every_kind_is_json_with_the_message_of_standard_error() {
         ("probability --space no.toml --method grid", 2),
         (&scene, 2),
         ("trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg", 2),
+        ("errors --space paper-fig4 --seconds 1e-9", 1),
         ("toss --rate 1,1,1e300 --time 1", 1),
         ("toss --rate 1e308,0,1 --time 4", 1),
         ("toss --rate 0.3,0.3,5 --time 5 --tilt 1 --solver gamma --formulation vertical", 1),

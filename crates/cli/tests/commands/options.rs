@@ -115,6 +115,7 @@ const VALUES: &[(&str, &[&str])] = &[
     ("scene", &["{}/scene.json"]),
     ("repeats", &["3"]),
     ("threads", &["2"]),
+    ("seconds", &["1min"]),
     ("svg", &["{}/chart.svg"]),
     ("format", &["json"]),
 ];
@@ -123,6 +124,7 @@ const VALUES: &[(&str, &[&str])] = &[
 type Exception = (&'static str, fn(&str) -> bool, &'static str);
 
 const EXCEPTIONS: &[Exception] = &[
+    ("seconds", |_| true, "how long it may take, which is longer than it takes"),
     ("threads", |_| true, "how fast the answer is there, which is the same for any number"),
     ("svg", |_| true, "draws a chart beside the answer"),
     ("format", |_| true, "the form of the answer"),

@@ -42,9 +42,14 @@ fn a_trace_is_printed_as_it_is_computed_and_ends_when_its_reader_has_gone() {
 /// A singular point comes after the launch.
 #[test]
 fn the_points_before_an_error_are_printed_before_it() {
-    let output = run("trace --rate 1,0,0 --tilt 1 --time 9 --points 6 --solver euler --formulation vertical");
+    let trace = "trace --rate 1,0,0 --tilt 1 --time 9 --points 6 --solver euler --formulation vertical";
+    let output = run(trace);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    assert!(stdout(&output).lines().count() > 1 && stderr(&output).starts_with("error: "), "{}", stdout(&output));
+    let lines = stdout(&output).lines().count();
+    assert!(lines > 1 && stderr(&output).starts_with("error: "), "{}", stdout(&output));
+    // One object has the same points, and the error.
+    let answer = json(trace, 1);
+    assert_eq!((answer["points"].as_array().map(Vec::len), &answer["error"]["kind"]), (Some(lines - 1), &"singular".into()));
 }
 
 #[test]
@@ -76,7 +81,8 @@ fn an_error_that_cannot_be_told_keeps_its_code() {
 
 #[test]
 fn a_reader_that_closes_the_pipe_is_no_failure() {
-    for arguments in ["--help", &format!("{MAP} --svg -"), "trace --rate 9,4,3 --speed 4 --points 20000"] {
+    let (chart, rows) = (format!("{MAP} --svg -"), "sample --space paper-fig4 --points 1e9");
+    for arguments in ["--help", &chart, "trace --rate 9,4,3 --speed 4 --points 20000", rows] {
         let mut child = program(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();

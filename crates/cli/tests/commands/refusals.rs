@@ -247,8 +247,18 @@ fn files_are_read_as_editors_write_them_and_their_mistakes_have_a_place() {
             "line 2, column 15: invalid type: string \"x\", expected a number",
         ),
         ("plan --scene", "a.json", "", "line 1, column 1: the text ends within a value"),
-        ("plan --scene", "a.json", r#"{"want": "tilt"}"#, "line 1, column 15: want = 'tilt' is a name alone"),
-        ("plan --scene", "a.toml", "accuracy = 1\r\nwant = 'tilt'", "line 2, column 8: want = 'tilt' is a name alone"),
+        (
+            "plan --scene",
+            "a.json",
+            r#"{"want": "tilt"}"#,
+            "line 1, column 15: invalid type: string \"tilt\", expected a table",
+        ),
+        (
+            "plan --scene",
+            "a.toml",
+            "accuracy = 1\r\nwant = 'tilt'",
+            "line 2, column 8: invalid type: string \"tilt\", expected a table",
+        ),
         (
             "plan --scene",
             "a.toml",

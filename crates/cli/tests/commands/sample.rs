@@ -229,20 +229,6 @@ fn lines_of_json_have_the_documented_fields() {
     }
 }
 
-#[cfg(unix)]
-#[test]
-fn a_reader_that_goes_away_ends_it_quietly() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
-        .args("sample --space paper-fig4 --points 1000000000".split(' '))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
-}
-
 #[test]
 fn a_table_without_rows_has_its_heading_and_columns_may_be_called_as_options() {
     let text = |arguments: &str, input: &str| {

@@ -2,7 +2,7 @@
 //! libraries have tests of their own; these show that options reach them and answers come back unchanged.
 
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::common::{json, run, stderr, stdout};
 
@@ -43,6 +43,68 @@ fn a_command_that_is_killed_leaves_no_file() {
     let output = child.wait_with_output().unwrap();
     assert!(!output.status.success() && output.stdout.is_empty());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// Commands that take minutes, and a part of what each knows early.
+const LONG: [(&str, &str); 11] = [
+    ("probability --rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --tilt 0.1 --speed 3:5 --method enclosure", "(proven)"),
+    ("probability --space paper-fig4 --method random --points 1e12", "clopper-pearson"),
+    ("map --rate-x 0:40:900 --rate-y 5 --rate-z 10:20:900 --speed 3:5 --method sobol --tilt 1", "0,10,"),
+    ("convergence --rate-x 1:60:9000 --rate-y 4 --rate-z 1:9:99 --speed 3:5:999", "grid"),
+    ("errors --space paper-fig4 --up-to 24 --reference 0.5", "grid,256,"),
+    ("limit --points 1e10", "cone_angle"),
+    ("sample --space paper-fig4 --points 1e9 --solver quaternion --scheme rk4 --step 1e-3", "cos_tilt"),
+    ("trace --rate 2000,500,3000 --time 10 --solver quaternion --prove --points 1e5", "cos_tilt"),
+    ("spread --rate 1,1,2.5 --speed 3 --heads 0.9999999999 --points 65536", "at least"),
+    ("compare --rate 2000,500,3000 --time 10 --step 2e-5 --repeats 1000", "exact"),
+    ("toss --coin racket --rate 0.1,200,0.1 --speed 30 --margin", "sensitivity"),
+];
+
+#[test]
+fn a_command_whose_time_is_up_answers_what_it_knows() {
+    for (command, known) in LONG {
+        let began = Instant::now();
+        let output = run(&format!("{command} --seconds 0.4"));
+        assert!(began.elapsed() < Duration::from_secs(10), "{command}: {:?}", began.elapsed());
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+        assert!(stdout(&output).contains(known), "{command}: {}", stdout(&output));
+        assert!(stderr(&output).contains("note: out of time, by --seconds"), "{command}: {}", stderr(&output));
+    }
+    let refused = json("toss --rate 1,1,1 --speed 3 --seconds 0", 2);
+    assert_eq!(refused["error"]["field"], "seconds");
+    // Parts of a grid are no answer.
+    let ended =
+        run("probability --rate-x 1:60:9000 --rate-y 4 --rate-z 1:9:999 --speed 3:5:9999 --method grid --seconds 0.2");
+    assert_eq!((ended.status.code(), stdout(&ended)), (Some(1), String::new()));
+    assert_eq!(stderr(&ended), "error: out of time, by --seconds before there was an answer\n");
+}
+
+/// Ctrl-C ends each within a second. Processes of the background ignore it, unless `env` lets them not.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_command_answers_what_it_knows() {
+    for (command, known) in [LONG[0], LONG[6], LONG[7]] {
+        let words = command.split(' ').chain(["--format", if command.starts_with("prob") { "text" } else { "json" }]);
+        let child = Command::new("env")
+            .args(["--default-signal=INT", env!("CARGO_BIN_EXE_unfair-toss")])
+            .args(words)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(700));
+        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        let began = Instant::now();
+        let output = child.wait_with_output().unwrap();
+        assert!(sent.success() && began.elapsed() < Duration::from_secs(2), "{command}: {:?}", began.elapsed());
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+        let text = stdout(&output);
+        assert!(text.contains(known) && stderr(&output).contains("note: interrupted"), "{command}: {text}");
+        if command.starts_with("trace") {
+            let answer: serde_json::Value = serde_json::from_str(&text).unwrap();
+            assert!(answer["ended"] == "interrupted" && !answer["points"].as_array().unwrap().is_empty(), "{answer}");
+        }
+    }
 }
 
 #[test]

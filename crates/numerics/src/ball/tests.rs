@@ -72,9 +72,10 @@ fn no_digit_that_underflows_is_forgotten() {
             assert!(is_right(&(a + b), &sum) && is_right(&(rough_a + rough_b), &sum), "{a:?} {b:?}");
             let product = &exact_a * &exact_b;
             assert!(is_right(&(a * b), &product) && is_right(&(rough_a * rough_b), &product), "{a:?} {b:?}");
-            let sum = Ball::sums_of_products(&[a, b], &[b, a], &[[0, 0], [1, 1], [0, 1]], &[2, 3]);
-            assert!(is_right(&sum[0], &(&product + &product)), "{a:?} {b:?}");
-            assert!(is_right(&sum[1], &(&exact_a * &exact_a)), "{a:?}");
+            // (a + b t)(b + a t) = a b + (a² + b²) t
+            let series = Ball::product_of_series(&[a, b], &[b, a], &[], &[0, 0]);
+            assert!(is_right(&series[0], &product), "{a:?} {b:?}");
+            assert!(is_right(&series[1], &(&exact_a * &exact_a + &exact_b * &exact_b)), "{a:?}");
             let angle = Elementary::atan2(&exact_a, &exact_b);
             assert!(is_angle(&a.atan2(&b), &angle) && is_angle(&rough_a.atan2(&rough_b), &angle), "{a:?} {b:?}");
             if exact_b != Big::ZERO {
@@ -221,16 +222,16 @@ fn the_radius_is_the_one_of_the_table() {
     }
 }
 
-/// The radii of two sums, of three products and of one: each product has the radius of the table, and the roundings of
+/// The radii of two terms, of one product and of three: each product has the radius of the table, and the roundings of
 /// n products and n - 1 sums are those of 2n operations on the sum of the sizes.
-fn check_radii_of_sums<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) {
-    let pairs = [[0, 1], [1, 0], [1, 1], [0, 0]];
+fn check_radii_of_series<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) {
     let digits = |value: f64| exactly(value).with_precision(DIGITS + 40).value();
-    let found = Ball::sums_of_products(one, other, &pairs, &[3, 4]);
-    for (ball, pairs) in found.iter().zip([&pairs[..3], &pairs[3..]]) {
+    let found = Ball::product_of_series(one, other, &[[1, 1]], &[0, 1]);
+    let pairs: [&[[usize; 2]]; 2] = [&[[0, 0]], &[[0, 1], [1, 1], [1, 0]]];
+    for (ball, pairs) in found.iter().zip(pairs) {
         let (mut middle, mut error, mut size) = (digits(0.0), digits(0.0), digits(0.0));
         for [i, j] in pairs {
-            let [a, b] = [&one[usize::from(*i)], &other[usize::from(*j)]];
+            let [a, b] = [&one[*i], &other[*j]];
             let [x, y] = [a, b].map(|ball| digits(0.0).like_big(&ball.midpoint.to_big()));
             let [r, s] = [a.radius, b.radius].map(digits);
             error = error + x.magnitude() * &s + y.magnitude() * &r + &r * &s;
@@ -247,17 +248,17 @@ fn check_radii_of_sums<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) 
 }
 
 #[test]
-fn the_radius_of_a_sum_of_products_is_that_of_its_parts() {
+fn the_radius_of_a_term_of_a_product_is_that_of_its_parts() {
     for index in 1..40 {
         let [x, y, z, w] =
             [2.0, 3.0, 5.0, 7.0].map(|root: f64| 5.0 * (2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0));
         for share in [0.0, 1e-60, 1e-31, 1e-16, 1e-6, 0.3, 4.0] {
             let [p, q, r, s] = [x, 0.6 * y, 0.0, 2.0 * w].map(|value: f64| share * value.abs());
             let of = |value: f64, radius| Ball::new(value, radius);
-            check_radii_of_sums(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
+            check_radii_of_series(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
             let of = |value: f64, radius| Ball::new(DoubleDouble::exactly(value), radius);
-            check_radii_of_sums(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
-            check_radii_of_sums(&[of(z, r), of(w, s)], &[of(x, p), of(y, q)]);
+            check_radii_of_series(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
+            check_radii_of_series(&[of(z, r), of(w, s)], &[of(x, p), of(y, q)]);
         }
     }
 }

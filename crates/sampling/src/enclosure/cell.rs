@@ -47,12 +47,12 @@ impl<'a> Cell<'a> {
         [0, 1].map(|end| (self.place[index] + end) as f64 * (-f64::from(self.level[index])).exp2())
     }
 
-    /// The parameter in direction number `index`, about the middle: with t from -1 to 1 as the variable of the series. Its constant
-    /// term is the middle, or for a `whole` cell a ball that contains the interval.
+    /// The parameter in direction number `index`, about the middle: with t from -1 to 1 as the one variable of the series. Its
+    /// constant term is the middle, or for a `whole` cell a ball that contains the interval.
     pub(super) fn parameter<const T: usize>(&self, index: usize, whole: bool) -> Jet<Ball<f64>, T> {
         let half = 0.5 * (-f64::from(self.level[index])).exp2();
         #[expect(clippy::cast_precision_loss, reason = "below 2^52")]
         let middle = (2.0 * self.place[index] as f64 + 1.0) * half;
-        Jet::variable(Ball::new(middle, if whole { half } else { 0.0 }), Ball::new(half, 0.0), index)
+        Jet::variable(Ball::new(middle, if whole { half } else { 0.0 }), Ball::new(half, 0.0), 0)
     }
 }

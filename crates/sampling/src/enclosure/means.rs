@@ -88,33 +88,56 @@ impl<'a> Problem<'a> {
     }
 
     fn launches<const T: usize>(&self, cell: &Cell<'_>, whole: bool) -> Launches<Jet<Ball<f64>, T>> {
-        let mut values = Coordinate::ALL.map(|of| Jet::constant(as_given(self.space.axis(of).bounds()[0])));
+        if Jet::<Ball<f64>, T>::ORDER > 2 {
+            self.launches_by::<T, 5>(cell, whole)
+        } else {
+            self.launches_by::<T, 3>(cell, whole)
+        }
+    }
+
+    /// Each coordinate depends on one direction alone, so that its functions are computed in series of `U` terms in one variable.
+    fn launches_by<const T: usize, const U: usize>(&self, cell: &Cell<'_>, whole: bool) -> Launches<Jet<Ball<f64>, T>> {
+        let mut values =
+            Coordinate::ALL.map(|of| (Jet::<_, U>::constant(as_given(self.space.axis(of).bounds()[0])), 0));
         if self.is_across {
-            values[Coordinate::RateY as usize] = Jet::constant(exactly(0.0));
+            values[Coordinate::RateY as usize].0 = Jet::constant(exactly(0.0));
         }
         let mut weight: Option<Jet<Ball<f64>, T>> = None;
         for (index, direction) in cell.directions.iter().flatten().enumerate() {
             let (value, density) = direction.at(cell.parameter(index, whole));
-            values[direction.of as usize] = value;
+            values[direction.of as usize] = (value, index);
+            let density = density.map(|density| Jet::in_variable(&density, index));
             weight = match (weight, density) {
                 (Some(weight), Some(density)) => Some(weight * density),
                 (one, other) => one.or(other),
             };
         }
         let value = |of: Coordinate| values[self.space.place(of) as usize];
-        let rate = |of: Coordinate| value(of).times_power_of_two(-self.exponent);
+        let in_place = |of: Coordinate, apply: &dyn Fn(Jet<Ball<f64>, U>) -> Jet<Ball<f64>, U>| {
+            let (value, index) = value(of);
+            Jet::in_variable(&apply(value), index)
+        };
+        let rate = |value: Jet<Ball<f64>, U>| value.times_power_of_two(-self.exponent);
         let momentum = if self.space.is_of_precession() {
-            let ([sin, cos], turn) = (value(Coordinate::Psi).sine_and_cosine(), rate(Coordinate::Turn));
+            let turn = in_place(Coordinate::Turn, &rate);
+            let parts = value(Coordinate::Psi).0.sine_and_cosine();
+            let [sin, cos] = parts.map(|part| in_place(Coordinate::Psi, &|_| part));
             [turn * sin, Jet::constant(exactly(0.0)), turn * cos]
         } else {
-            [rate(Coordinate::RateX), rate(Coordinate::RateY), rate(Coordinate::RateZ).scaled(&self.ratio)]
+            [
+                in_place(Coordinate::RateX, &rate),
+                in_place(Coordinate::RateY, &rate),
+                in_place(Coordinate::RateZ, &|value| rate(value).scaled(&self.ratio)),
+            ]
         };
-        let twice = value(Coordinate::Gravity).reciprocal().times_power_of_two(1 + self.exponent);
-        let times = self.space.axis(Coordinate::Speed).bounds().map(|speed| twice.scaled(&as_given(speed)));
+        let twice = value(Coordinate::Gravity).0.reciprocal().times_power_of_two(1 + self.exponent);
+        let time = |speed: f64| in_place(Coordinate::Gravity, &|_| twice.scaled(&as_given(speed)));
+        let times = self.space.axis(Coordinate::Speed).bounds().map(time);
         let tilt = if self.is_horizontal() {
             [0.0, 1.0].map(|value| Jet::constant(exactly(value)))
         } else {
-            value(Coordinate::Tilt).sine_and_cosine()
+            let parts = value(Coordinate::Tilt).0.sine_and_cosine();
+            parts.map(|part| in_place(Coordinate::Tilt, &|_| part))
         };
         Launches { momentum, tilt, times, weight }
     }
@@ -179,6 +202,12 @@ fn both<const T: usize>(middle: Motion<Jet<Ball<f64>, T>>, whole: Motion<Jet<Bal
 
 impl<const T: usize> Means<'_, '_, T> {
     fn bounds<const F: usize>(&self, enough: f64) -> Bounds {
+        let found = self.of_any_launches::<F>(enough);
+        // Also where nothing is known, a share is from 0 to 1.
+        Bounds { lo: found.lo.max(0.0), hi: found.hi.min(self.weight().hi), ..found }
+    }
+
+    fn of_any_launches<const F: usize>(&self, enough: f64) -> Bounds {
         if let Some(face) = self.face_of_all() {
             return self.of_one_face(face);
         }
