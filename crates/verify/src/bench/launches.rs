@@ -29,20 +29,20 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
         for (name, space) in [("Fig. 4", fig4), ("box", boxed)] {
             for threads in [1, all] {
                 let points = usize::try_from(plan.points(&space)?)?;
-                contests.push(contest(LAUNCH, format!("{name}, {way}"), points, (space, plan), threads)?);
+                contests.push(contest(LAUNCH, &format!("{name}, {way}"), points, (space, plan), threads)?);
             }
         }
     }
     for (name, space, accuracy) in [("Fig. 4", fig4, 1e-10), ("box", box_of_launches()?, 1e-3)] {
         let name = format!("{name}, to {accuracy:e}");
-        contests.push(contest(ENCLOSURE, name, 1, (space, Plan::Enclosure { accuracy }), 1)?);
+        contests.push(contest(ENCLOSURE, &name, 1, (space, Plan::Enclosure { accuracy }), 1)?);
     }
     Ok(contests)
 }
 
 fn contest<'a>(
     group: &'static str,
-    name: String,
+    name: &str,
     tosses: usize,
     (space, plan): (Space, Plan),
     threads: usize,
