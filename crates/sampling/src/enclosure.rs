@@ -300,8 +300,8 @@ impl<'a> Work<'a> {
     /// takes more than `most` cells.
     fn pass(&self, threshold: f64, most: u64) -> Option<(Ball<DoubleDouble>, u64)> {
         let (count, nothing) = (Count { done: AtomicU64::new(0), most }, Ball::new(DoubleDouble::ZERO, 0.0));
-        let sums = self.roots.iter().map(|root| self.sum(root, threshold, &count));
-        let sum = sums.fold(Some(nothing), |sum, part| Some(sum? + part?))?;
+        let mut sums = self.roots.iter().map(|root| self.sum(root, threshold, &count));
+        let sum = sums.try_fold(nothing, |sum, part| Some(sum + part?))?;
         let cells = count.done.into_inner();
         (self.progress)(cells % REPORTED);
         Some((sum, cells))

@@ -31,9 +31,6 @@ const ATTITUDE_ERROR: f64 = 1.13e-15 + 4.0 * f64::EPSILON;
 /// as the costs of the [models](crate::model) were.
 const POINT_NS: f64 = 799.0;
 
-/// A plan flies no more points of a trace than these.
-const FLOWN_POINTS: usize = 1000;
-
 /// What a flight costs without its calls of the right-hand side, and what each call costs (ns), of a coin or of another
 /// body. `cargo bench --package toss --bench costs` measures them; those of coins were taken as the costs of the
 /// [models](crate::model) were. An integrator from elsewhere is taken to cost as much as the dearest of ours.
@@ -81,33 +78,8 @@ pub(crate) fn integrators(
             }
         }
     }
-    let parts = parts(&scene.want)?;
-    Ok(contestants.into_iter().map(|(entry, scheme)| offered(scene, &parts, entry, scheme)).collect())
-}
-
-/// What is flown to see how far an integrator is off.
-struct Part {
-    want: Want,
-    exact: Answer,
-    /// So many times the error of this part is that of the whole.
-    times: f64,
-}
-
-/// The flight. Of a trace of very many points it is the flight in fewer, longer legs, whose steps are at least as long, and as many
-/// of its own legs from the launch on, with an error that grows with their number.
-fn parts(want: &Want) -> Result<Vec<Part>, Error> {
-    let part =
-        |want: Want, times| -> Result<Part, Error> { Ok(Part { exact: values(&ExactSolver, &want)?, want, times }) };
-    let Want::Trace { toss, points } = want else { return Ok(vec![part(want.clone(), 1.0)?]) };
-    if *points <= FLOWN_POINTS {
-        return Ok(vec![part(want.clone(), 1.0)?]);
-    }
-    let shortened = |toss| Want::Trace { toss, points: FLOWN_POINTS };
-    #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
-    let times = (*points - 1) as f64 / (FLOWN_POINTS - 1) as f64;
-    let time = TimeOfFlight::Given(toss.launch.flight_time() / times);
-    let start = Toss { launch: toss.launch.with_time_of_flight(time)?, ..*toss };
-    Ok(vec![part(shortened(*toss), 1.0)?, part(shortened(start), times)?])
+    let exact = values(&ExactSolver, &scene.want)?;
+    Ok(contestants.into_iter().map(|(entry, scheme)| offered(scene, &exact, entry, scheme)).collect())
 }
 
 fn integrator<'a>(registry: &'a Registry, name: &str) -> Result<&'a SolverEntry, InputError> {
@@ -149,12 +121,12 @@ fn values(solver: &dyn Solver, want: &Want) -> Result<Answer, Error> {
 }
 
 /// The offer of a scheme of an integrator: the coarsest tolerance that serves, or the reason why none does.
-fn offered(scene: &Scene, parts: &[Part], entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
+fn offered(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
     let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
     let mut smallest = f64::INFINITY;
     let mut failed = None;
     for tolerance in TOLERANCES {
-        match flown(scene, parts, entry, scheme, tolerance) {
+        match flown(scene, exact, entry, scheme, tolerance) {
             Ok(Flown::Serves(choice)) => return (candidate, Ok(choice)),
             Ok(Flown::IsOffBy(error)) => smallest = smallest.min(error),
             Err(error) => {
@@ -183,13 +155,10 @@ enum Flown {
     IsOffBy(f64),
 }
 
-fn flown(scene: &Scene, parts: &[Part], entry: &SolverEntry, scheme: Scheme, tolerance: f64) -> Result<Flown, Error> {
+fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tolerance: f64) -> Result<Flown, Error> {
     let stepping = Stepping::adaptive(scheme, tolerance)?;
     let solver = solver(entry, stepping)?;
-    let mut error = 0.0_f64;
-    for Part { want, exact, times } in parts {
-        error = error.max(times * distance(&values(solver.as_ref(), want)?, exact));
-    }
+    let mut error = distance(&values(solver.as_ref(), &scene.want)?, exact);
     if let Want::Outcome(toss) = &scene.want {
         error = error.max(solver.tilt(toss)?.error.unwrap_or(f64::INFINITY));
     }

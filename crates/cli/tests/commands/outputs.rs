@@ -49,7 +49,10 @@ fn the_points_before_an_error_are_printed_before_it() {
     assert!(lines > 1 && stderr(&output).starts_with("error: "), "{}", stdout(&output));
     // One object has the same points, and the error.
     let answer = json(trace, 1);
-    assert_eq!((answer["points"].as_array().map(Vec::len), &answer["error"]["kind"]), (Some(lines - 1), &"singular".into()));
+    assert_eq!(
+        (answer["points"].as_array().map(Vec::len), &answer["error"]["kind"]),
+        (Some(lines - 1), &"singular".into())
+    );
 }
 
 #[test]

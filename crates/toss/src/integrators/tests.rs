@@ -91,22 +91,6 @@ fn a_plan_keeps_its_accuracy_on_a_rod_that_spins_fast() {
     }
 }
 
-/// A plan flies a few thousand of the points, and its answer is as accurate as it says.
-#[test]
-fn a_plan_of_a_long_trace_keeps_its_accuracy() {
-    let launch = Launch::new([200.0, 50.0, 300.0], TimeOfFlight::Given(10.0)).unwrap();
-    let toss = Toss::new(Coin::PAPER, launch);
-    for accuracy in [1e-5, 1e-9] {
-        let scene = Scene::new(Want::Trace { toss, points: 50_000 }, accuracy).by("quaternion", None);
-        let choice = scene.plan().unwrap().choice;
-        let Answer::Trace(found) = choice.run(&scene).unwrap() else { panic!("{choice:?}") };
-        let exact = crate::trace::trace(&ExactSolver, &toss, 50_000).unwrap();
-        let off = found.iter().zip(&exact).map(|(found, exact)| found.attitude.angle_to(&exact.attitude));
-        let off = off.fold(0.0, f64::max);
-        assert!(off <= choice.expected_error && choice.expected_error <= accuracy, "{off:e} {choice:?}");
-    }
-}
-
 /// The quaternion, turned about x by an angle too far. It claims to have no error, and refuses a toss about z.
 struct Off(QuaternionSolver, f64);
 
