@@ -217,8 +217,9 @@ mod tests {
             (count(&Decider::Exact).unwrap(), count(&Decider::Solver(Checked::new(&ExactSolver))).unwrap());
         assert!(proven.are_certified() && !solved.are_certified());
         assert_eq!((proven.points(), proven.heads(), proven.tails()), (35, solved.heads(), solved.tails()));
-        let as_coin =
-            Decider::Exact.count(&space.with_body(Coin::PAPER).unwrap(), &launches, 0..35, (&|_| {}, &|| false)).unwrap();
+        let as_coin = Decider::Exact
+            .count(&space.with_body(Coin::PAPER).unwrap(), &launches, 0..35, (&|_| {}, &|| false))
+            .unwrap();
         assert_ne!(as_coin.heads(), proven.heads());
         let refused = count(&Decider::Solver(Checked::new(&ForCoins))).unwrap_err();
         assert!(matches!(refused, Error::Launch { index: 0, source: dynamics::SolveError::NotSymmetric { .. }, .. }));
