@@ -1,7 +1,7 @@
 //! What watches over a command that may take long: it shows how far the work is, and ends it at Ctrl-C or when its time is up.
 //! What is known by then is the answer.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Once, OnceLock};
@@ -181,7 +181,8 @@ fn interrupt() {
         std::thread::sleep(PATIENCE);
     }
     if is_pressed_again || AT_WORK.load(Ordering::SeqCst) {
-        eprintln!("\nerror: interrupted before there was an answer");
+        // Standard error may be closed.
+        let _ = writeln!(std::io::stderr(), "\nerror: interrupted before there was an answer");
         std::process::exit(Ended::Interrupted.exit_code().into());
     }
 }
