@@ -98,4 +98,25 @@ mod tests {
             }
         }
     }
+
+    /// From D = α' sin β and u = α' cos β follows D' u - D u' = α'² β' = (D² + u²) β'. With u' = -γ'' this gives γ''
+    /// without (10), to compare with.
+    #[test]
+    fn the_gamma_equation_is_the_kinematics_differentiated() {
+        for (k, rate_z) in [(0.5, 2.5), (1.98, -0.7), (1.0, 3.0), (0.0, 1.1)] {
+            for [gamma, gamma_rate, rate_x, rate_y] in
+                [[0.3, 1.7, 1.0, 1.0], [-2.0, -0.4, 2.0, -1.5], [2.9, 0.2, -0.6, 1.3]]
+            {
+                let system = RawGamma::new(k, rate_z);
+                let found = system.derivative(&SVector::from([gamma, gamma_rate, 0.0, rate_x, rate_y]))[1];
+                let (sin, cos): (f64, f64) = gamma.sin_cos();
+                let (d, u) = (rate_x * sin + rate_y * cos, rate_z - gamma_rate);
+                let beta_rate = rate_x * cos - rate_y * sin;
+                let (rate_x_dot, rate_y_dot) = transverse_acceleration(system.0.q, rate_x, rate_y);
+                let d_dot = rate_x_dot * sin + rate_y_dot * cos + gamma_rate * beta_rate;
+                let expected = (beta_rate * (d * d + u * u) - u * d_dot) / d;
+                assert!((found - expected).abs() < 1e-13 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
+            }
+        }
+    }
 }

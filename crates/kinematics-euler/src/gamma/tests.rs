@@ -42,6 +42,28 @@ fn along_the_momentum_the_angles_turn_steadily() {
     }
 }
 
+/// Compares (10) and (11) with central differences of the exact γ, on flights where the vertical frame is regular.
+#[test]
+fn the_acceleration_is_that_of_the_exact_motion() {
+    for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)] {
+        let toss = toss(k, rate, tilt);
+        let motion = CoinMotion::new(&toss.coin().unwrap());
+        let h = 1e-3;
+        let gamma = |time: f64| motion.euler_angles(time).unwrap().gamma;
+        for step in 1..10 {
+            let time = 0.1 * f64::from(step);
+            let [before, now, after] = [time - h, time, time + h].map(gamma);
+            let velocity = (after - before) / (2.0 * h);
+            let state = motion.state(time).unwrap();
+            let system = GammaSystem::new(k, rate[2], 1.0);
+            let y = SVector::from([now, velocity, 0.0, state.rate.x, state.rate.y]);
+            let found = system.gamma_acceleration(&system.terms(&y), velocity);
+            let expected = (after - 2.0 * now + before) / (h * h);
+            assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
+        }
+    }
+}
+
 #[test]
 fn a_precession_that_turns_back_is_an_error_with_its_time() {
     let launch = Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
