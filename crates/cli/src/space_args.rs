@@ -60,7 +60,7 @@ pub(crate) struct SpaceArgs {
     /// Height of the launch above the landing, negative if the coins land higher [default: 0]
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
     drop: Option<f64>,
-    /// A hand: each rate and the speed that has a single value is normal around it, with the standard deviation S times
+    /// A hand: each rate and the speed that has a single value is normal around it, and a turn beside a range of psi, with the standard deviation S times
     /// the value; at most 12%
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::fraction)]
     spread: Option<f64>,
@@ -91,9 +91,8 @@ impl SpaceArgs {
             Coordinate::ALL.into_iter().zip([rate.x, rate.y, rate.z].map(|rate| rate.to_string())).collect()
         });
         let rate: Vec<(Coordinate, String)> = rate.unwrap_or_default();
-        let precession = [Coordinate::Turn, Coordinate::Psi];
         let given: Vec<(Coordinate, &str)> =
-            self.texts().filter(|(of, _)| rate.is_empty() || !precession.contains(of)).collect();
+            self.texts().filter(|(of, _)| rate.is_empty() || !Coordinate::OF_PRECESSION.contains(of)).collect();
         let given: Vec<_> = rate.iter().map(|(of, text)| (*of, text.as_str())).chain(given).collect();
         if given.is_empty() {
             let message = "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed";
@@ -133,12 +132,12 @@ impl SpaceArgs {
             return format!("space {name}") + &if body { format!(", {}", named(space.body())) } else { String::new() };
         }
         let rate = self.fixed_precession().ok().and_then(|thrown| toss_args::words_of_rate(&thrown));
-        let is_said = |of: &Coordinate| rate.is_some() && [Coordinate::Turn, Coordinate::Psi].contains(of);
+        let is_said = |of: &Coordinate| rate.is_some() && Coordinate::OF_PRECESSION.contains(of);
         let typed = self.texts().filter(|(of, _)| !is_said(of)).map(|(of, text)| {
             let symbol = of.symbol().split('/').next().unwrap_or_default();
             format!("{symbol} {text}")
         });
-        let axes: Vec<String> = rate.clone().into_iter().chain(typed).collect();
+        let axes: Vec<String> = rate.iter().cloned().chain(typed).collect();
         format!("{}: {}", named(space.body()), axes.join(", "))
     }
 

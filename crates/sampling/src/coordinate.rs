@@ -53,6 +53,9 @@ impl Coordinate {
     pub const ALL: [Self; Self::COUNT] =
         [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt, Self::Turn, Self::Psi];
 
+    /// Those that may stand in place of the rates.
+    pub const OF_PRECESSION: [Self; 2] = [Self::Turn, Self::Psi];
+
     /// The coordinates that every launch has, whether its rates are given or follow from a precession.
     pub const OF_LAUNCH: [Self; 6] = [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt];
 

@@ -8,8 +8,14 @@
 //! ```
 //!
 //! Of k people with n flips each, whose own probabilities have the standard deviation σ about p, the mean share has the
-//! standard error s/√k with s² = σ² + (p (1 - p) - σ²)/n, and the interval of the mean [over people](crate::people) is about
-//! Student's with k - 1 degrees of freedom at 97 %. So k = (t + z)² s²/(p - ½)², and the power is Φ(|p - ½| √k/s - t). Many
+//! standard error s/√k with s² = σ² + (p (1 - p) - σ²)/n. Student's interval of their mean, with ν = k - 1 degrees of freedom and
+//! the quantile t at 97 %, leaves out ½ with the probability that a noncentral t of noncentrality δ = |p - ½| √k/s is above t:
+//!
+//! ```text
+//! Φ((δ - t (1 - 1/(4ν)))/√(1 + t²/(2ν)))     (M. Abramowitz, I. A. Stegun, 26.7.10)
+//! ```
+//!
+//! The interval of the mean [over people](crate::people) is as wide as Student's or wider, so that it finds a little less. Many
 //! flips of few people do not help: s never falls below σ.
 
 use dynamics::InputError;
@@ -55,10 +61,7 @@ impl Power {
 
     /// The people that it takes if each flips `flips` times.
     pub fn people(self, flips: f64) -> f64 {
-        let z = Normal::standard().inverse_cdf(self.power);
-        let of_one = (self.deviation(self.share, flips) / (self.share - 0.5)).powi(2);
-        let suffices = |people: f64| (student(people) + z).powi(2) * of_one <= people;
-        least(2.0, suffices)
+        least(2.0, |people| self.chance(people, flips) >= self.power)
     }
 
     /// The flips of each of `people` that it takes; `None` if no number of flips suffices, because people differ too much.
@@ -69,8 +72,10 @@ impl Power {
 
     /// The power of `people` with `flips` flips each.
     pub fn chance(self, people: f64, flips: f64) -> f64 {
-        let error = self.deviation(self.share, flips) / people.sqrt();
-        Normal::standard().cdf((self.share - 0.5).abs() / error - student(people))
+        let (freedom, quantile) = (people - 1.0, student(people));
+        let noncentrality = (self.share - 0.5).abs() * people.sqrt() / self.deviation(self.share, flips);
+        let beyond = noncentrality - quantile * (1.0 - 0.25 / freedom);
+        Normal::standard().cdf(beyond / (1.0 + 0.5 * quantile * quantile / freedom).sqrt())
     }
 
     /// The least share above ½ that `people` with `flips` flips each find with the wanted power; `None` if they find none.
@@ -138,11 +143,27 @@ mod tests {
         }
     }
 
-    /// By hand: σ = 0.016, p = 0.508 and n = 5000 have s² = 3.0594e-4, and 46 people t = 2.2414 and z = 0.8416, so that
-    /// (t + z)² s²/(p - ½)² = 45.4.
+    /// The expected numbers are those of SciPy's noncentral t.
     #[test]
     fn people_who_differ_are_needed_in_numbers() {
-        assert_eq!(of(0.508, 0.016).people(5000.0), 46.0);
+        for (flips, of_alike, of_different) in [
+            (20.0, 1774.0, 1808.0),
+            (100.0, 357.0, 393.0),
+            (1000.0, 38.0, 75.0),
+            (5000.0, 10.0, 46.0),
+            (1e4, 7.0, 43.0),
+        ] {
+            assert_eq!(of(0.508, 0.0).people(flips), of_alike, "{flips}");
+            assert_eq!(of(0.508, 0.016).people(flips), of_different, "{flips}");
+        }
+        for (share, sd, people, flips, chance, within) in [
+            (0.508, 0.016, 25.0, 200.0, 0.117_304, 0.001),
+            (0.6, 0.05, 9.0, 50.0, 0.792_980, 0.002),
+            (0.55, 0.0, 4.0, 500.0, 0.702_434, 0.015),
+            (0.6, 0.1, 3.0, 200.0, 0.103_648, 0.04),
+        ] {
+            assert!((of(share, sd).chance(people, flips) - chance).abs() < within, "{people} people");
+        }
         for (share, sd, people) in [(0.508, 0.016, 46.0), (0.6, 0.05, 9.0), (0.45, 0.02, 20.0)] {
             let wanted = of(share, sd);
             let flips = wanted.flips(people).unwrap();

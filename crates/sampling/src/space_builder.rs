@@ -98,7 +98,7 @@ impl SpaceBuilder {
             }
         }
         let is_given = |of: &Coordinate| self.axes[*of as usize].is_some();
-        let (rates, precession) = (&Coordinate::ALL[..3], [Coordinate::Turn, Coordinate::Psi]);
+        let (rates, precession) = (&Coordinate::ALL[..3], Coordinate::OF_PRECESSION);
         let turns = precession.iter().any(is_given);
         if let Some(rate) = rates.iter().find(|rate| turns && is_given(rate)) {
             let expected = "either rates, or a turn with psi";

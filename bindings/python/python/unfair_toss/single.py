@@ -168,7 +168,8 @@ def power(
     Returns
     -------
     Power
-        The same numbers as ``unfair-toss power --format json``, right to about 2 %.
+        The same numbers as ``unfair-toss power --format json``, by Student's interval of the people's shares. That of
+        ``same_side_bias`` is as wide or wider, and finds a little less.
 
     Raises
     ------

@@ -114,7 +114,7 @@ impl Args {
         lines.push(table(
             &std::iter::once(row(["flips each", "people", "flips in all"])).chain(rows).collect::<Vec<_>>(),
         ));
-        lines.push(format!("people       differ by a standard deviation of {sd}; the numbers are right to about 2 %"));
+        lines.push(format!("people       differ by a standard deviation of {sd}; by Student's interval, while that of inverse --counts finds a little less"));
         lines.join("\n")
     }
 }
