@@ -89,18 +89,3 @@ fn where_roundings_grow_it_vouches_for_nothing() {
     assert!(judged([1e-12, 1.0, 1e-12], 200.0) && judged([0.0, 1.0, 0.0], 900.0));
     assert!(!judged([1e-200, 1.0, 1e-200], 900.0) && !judged([0.3, 1.0, 0.2], 2000.0));
 }
-
-#[test]
-#[ignore = "a measurement"]
-fn a_flight_of_30_rad_takes_few_milliseconds() {
-    for (name, inertia) in [
-        ("tensor", [2.0, 3.0, 4.0, 0.3, -0.1, 0.2]),
-        ("moments", [1.0, 2.0, 2.5, 0.0, 0.0, 0.0]),
-        ("near", [1.0, 1.0, 1.0, 0.0, -5e-18, 0.0]),
-    ] {
-        let toss = body(inertia, [0.3, -0.5, 0.8], 0.0, 30.0);
-        let start = std::time::Instant::now();
-        let _ = std::hint::black_box(Reference::flown(&toss));
-        println!("{name}: {:?}", start.elapsed());
-    }
-}
