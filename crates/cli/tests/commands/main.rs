@@ -4,6 +4,8 @@
 mod common;
 #[path = "../common/fields.rs"]
 mod fields;
+#[path = "../common/lines.rs"]
+mod lines;
 
 mod bodies;
 mod charts;

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 
 use unfair_toss::Streams;
 
+use crate::case::Case;
 use crate::check::Ran;
-use crate::command_line::Case;
 
 /// A run that takes longer than this is not waited for.
 const GIVEN_UP: Duration = Duration::from_secs(20);
