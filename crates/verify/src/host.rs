@@ -52,7 +52,7 @@ impl Host {
         let commit = output("git", &["rev-parse", "HEAD"]).unwrap_or_else(unknown);
         Self {
             schema: SCHEMA,
-            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
+            date: chrono::Utc::now().format("%Y-%m-%d").to_string(),
             commit: format!("{commit}{}", if changed { "+" } else { "" }),
             rustc: output("rustc", &["--version"]).unwrap_or_else(unknown),
             target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
