@@ -7,11 +7,10 @@ use clap::Args;
 use dynamics::thrown::{Field, Thrown};
 use rayon::ThreadPoolBuilder;
 use sampling::{
-    AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
+    Axis, AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
 };
 use toss::Error;
 use toss::defaults::{LAUNCHES, LAUNCHES_OF_A_NODE, Launches, MOST_OF_BODIES, SEED, Wanted};
-use toss::quantity::Dimension;
 
 use crate::chart::named;
 use crate::failure::Failure;
@@ -57,9 +56,9 @@ pub(crate) struct SpaceArgs {
     /// normal towards -y [default: 0]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     tilt: Option<String>,
-    /// Height of the launch above the landing, negative if the coins land higher [default: 0]
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
-    drop: Option<f64>,
+    /// Height of the launch above the landing, likewise; negative if the coins land higher [default: 0]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    drop: Option<String>,
     /// A hand: each rate and the speed that has a single value is normal around it, and a turn beside a range of psi, with the standard deviation S times
     /// the value; at most 12%
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::fraction)]
@@ -69,10 +68,14 @@ pub(crate) struct SpaceArgs {
 impl SpaceArgs {
     pub(crate) fn space(&self) -> Result<Space, Failure> {
         let space = match &self.space {
-            Some(name) => space_called(name, &self.coin)?,
+            Some(name) => match &self.drop {
+                Some(drop) => {
+                    space_called(name, &self.coin)?.with_axis(Coordinate::Drop, Axis::parse(Coordinate::Drop, drop)?)?
+                }
+                None => space_called(name, &self.coin)?,
+            },
             None => self.space_of_axes()?,
         };
-        let space = if self.drop.is_some() { space.with_drop(self.drop)? } else { space };
         let Some(spread) = self.spread else { return Ok(space) };
         let spreading = space.with_spread(spread, &[HAND.as_slice(), &[Coordinate::Turn]].concat())?;
         if spreading == space {
@@ -103,8 +106,8 @@ impl SpaceArgs {
 
     /// The axes that were typed.
     fn texts(&self) -> impl Iterator<Item = (Coordinate, &str)> {
-        let Self { rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, .. } = self;
-        let texts = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi];
+        let Self { rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop, .. } = self;
+        let texts = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop];
         Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?)))
     }
 
@@ -120,7 +123,7 @@ impl SpaceArgs {
 
     /// The space in words, for the title of a chart: by its name, or by its body and its axes as they were typed.
     pub(crate) fn words(&self, space: &Space) -> String {
-        let drop = self.drop.map(|drop| format!("drop {} m", quantity::shortest(drop)));
+        let drop = self.drop.as_ref().filter(|_| self.space.is_some()).map(|drop| format!("drop {drop}"));
         let spread = self.spread.map(|spread| format!("spread {}", quantity::percent(spread)));
         let launches = [self.words_of_launches(space)].into_iter().chain(drop).chain(spread);
         launches.collect::<Vec<_>>().join(", ")

@@ -124,7 +124,7 @@ impl Axis {
     ///
     /// # Errors
     /// [`InputError::Malformed`] that names `of`.
-    pub(crate) fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
+    pub fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
         let numbers = |texts: &[&str]| {
             // If a number has a unit that does not fit, the units that fit help more than the forms of an axis.
             let starts_as_number =

@@ -1,4 +1,4 @@
-//! This file names the coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt; or in place of the
+//! This file names the coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g, the tilt and the drop; or in place of the
 //! rates the turn and the angle ψ of the precession. Files, messages and charts each need a name of their own for them, and
 //! all of these are kept together here.
 
@@ -27,6 +27,8 @@ pub enum Coordinate {
     Turn,
     /// The angle ψ between n and S, with the turn (rad).
     Psi,
+    /// How far below its launch the coin lands (m). A coin without one is caught at the height of its launch.
+    Drop,
 }
 
 /// Writes the [name](Coordinate::name).
@@ -47,11 +49,20 @@ impl FromStr for Coordinate {
 
 impl Coordinate {
     /// Number of coordinates.
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 9;
 
     /// All coordinates, in the order in which a space stores them.
-    pub const ALL: [Self; Self::COUNT] =
-        [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt, Self::Turn, Self::Psi];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::RateX,
+        Self::RateY,
+        Self::RateZ,
+        Self::Speed,
+        Self::Gravity,
+        Self::Tilt,
+        Self::Turn,
+        Self::Psi,
+        Self::Drop,
+    ];
 
     /// Those that may stand in place of the rates.
     pub const OF_PRECESSION: [Self; 2] = [Self::Turn, Self::Psi];
@@ -61,7 +72,7 @@ impl Coordinate {
 
     /// The name in files, such as `rate_x`.
     pub fn name(self) -> &'static str {
-        ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt", "turn", "psi"][self as usize]
+        ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt", "turn", "psi", "drop"][self as usize]
     }
 
     /// The coordinate called `name`, which may also be written as the option of the command line, such as `rate-x`.
@@ -92,6 +103,7 @@ impl Coordinate {
             Self::Tilt => "tilt [rad]",
             Self::Turn => "turn [rad/s]",
             Self::Psi => "psi [rad]",
+            Self::Drop => "drop [m]",
         }
     }
 
@@ -102,13 +114,23 @@ impl Coordinate {
             Self::Speed => Dimension::Speed,
             Self::Gravity => Dimension::Acceleration,
             Self::Tilt | Self::Psi => Dimension::Angle,
+            Self::Drop => Dimension::Length,
         }
     }
 
     /// The symbol and unit on charts, such as `ωx/(rad/s)`.
     pub fn symbol(self) -> &'static str {
-        ["ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "g/(m/s²)", "tilt/rad", "turn/(rad/s)", "ψ/rad"]
-            [self as usize]
+        [
+            "ωx/(rad/s)",
+            "ωy/(rad/s)",
+            "ωz/(rad/s)",
+            "v0/(m/s)",
+            "g/(m/s²)",
+            "tilt/rad",
+            "turn/(rad/s)",
+            "ψ/rad",
+            "drop/m",
+        ][self as usize]
     }
 
     /// The text that ties another rate to this one: `x`, `y` or `z`. Other coordinates cannot have ties.
@@ -145,6 +167,9 @@ mod tests {
             assert!(unit.ends_with(&format!("[{bare}]")), "{of:?}: {unit}, {unit_on_charts}");
         }
         let unknown = Coordinate::named_in("up", "rate x").unwrap_err().to_string();
-        assert_eq!(unknown, "up = 'rate x' is unknown; known: rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi");
+        assert_eq!(
+            unknown,
+            "up = 'rate x' is unknown; known: rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop"
+        );
     }
 }

@@ -16,6 +16,7 @@ use crate::space::Space;
 const ORDER: [Coordinate; Coordinate::COUNT] = [
     Coordinate::Tilt,
     Coordinate::Gravity,
+    Coordinate::Drop,
     Coordinate::RateX,
     Coordinate::RateY,
     Coordinate::RateZ,

@@ -12,12 +12,18 @@ use numerics::lanes::{Philox, Simd, SimdLevel, WithSimd};
 
 use crate::axis::{Axis, Distribution};
 use crate::block::{BLOCK, Block};
-use crate::coordinate::Coordinate::{self, Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
+use crate::coordinate::Coordinate::{self, Drop, Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
 use crate::space::{Cube, Space};
 
 /// The coordinates that share a block of the generator; the number of the pair is the upper half of the counter. The
 /// first rate and the speed come first, so that the many spaces in which only these vary take one block a launch.
-const PAIRS: [[Coordinate; 2]; 4] = [[RateX, Speed], [RateY, RateZ], [Gravity, Tilt], [Turn, Psi]];
+const PAIRS: [[Option<Coordinate>; 2]; 5] = [
+    [Some(RateX), Some(Speed)],
+    [Some(RateY), Some(RateZ)],
+    [Some(Gravity), Some(Tilt)],
+    [Some(Turn), Some(Psi)],
+    [Some(Drop), None],
+];
 
 /// Writes the launches from number `start` on of the random sequence with this `seed` over `cube` into `block`.
 pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block) {
@@ -28,11 +34,11 @@ pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block
 fn write_at(level: SimdLevel, cube: &Cube, seed: u64, start: u64, block: &mut Block) {
     let generator = Philox::new(seed);
     for (number, pair) in (0..).zip(PAIRS) {
-        let axes = pair.map(|of| cube.axes().iter().find(|(free, _)| *free == of).map(|(_, axis)| *axis));
+        let axes = pair.map(|of| cube.axes().iter().find(|(free, _)| Some(*free) == of).map(|(_, axis)| *axis));
         if axes == [None, None] {
             continue;
         }
-        let free = [0, 1].map(|place| axes[place].map(|_| pair[place]));
+        let free = [0, 1].map(|place| pair[place].filter(|_| axes[place].is_some()));
         let mut columns = block.two_columns_mut(free);
         level.run(Numbers { generator, start, pair: number, ranges: axes.map(range), columns: &mut columns });
         for (axis, column) in axes.into_iter().zip(columns) {

@@ -3,8 +3,8 @@
 //!
 //! It is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt; a rate may also be
 //! tied to another rate, and then has the same value. In place of the rates the turn and the angle ψ of the precession may
-//! have distributions, from which the rates [follow](rate_of_precession). The coin is caught at the height of its launch, T = 2 v0/g, or at a
-//! fixed drop below it.
+//! have distributions, from which the rates [follow](rate_of_precession). The coin is caught at the height of its launch,
+//! T = 2 v0/g, or at a drop below it, which may have a distribution, too.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -47,12 +47,10 @@ impl fmt::Display for AxisOrTie {
 )]
 pub struct Space {
     body: Body,
-    /// Those that are given: the rates, or the turn and ψ.
+    /// Those that are given: the rates, or the turn and ψ; a drop or none.
     axes: [Option<AxisOrTie>; Coordinate::COUNT],
     /// For each coordinate, the one that its value is taken from: itself, or the one that it is tied to.
     places: [Coordinate; Coordinate::COUNT],
-    /// How far below the launch the coins land (m); `None` for a landing at the height of the launch.
-    drop: Option<f64>,
 }
 
 impl Space {
@@ -70,7 +68,7 @@ impl Space {
                 }
             }
         }
-        let space = Self { body, axes, places, drop: None }.with_body(body)?;
+        let space = Self { body, axes, places }.with_body(body)?;
         if space.is_of_precession() {
             let [slowest, _] = space.axis(Coordinate::Turn).bounds();
             let valid = "turns >= 0 only, also 8.3 standard deviations below a normal mean";
@@ -80,15 +78,38 @@ impl Space {
                 require(Coordinate::Psi.field(), end, valid, (0.0..=PI).contains(&end))?;
             }
         }
-        let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
+        let [slowest, _] = space.axis(Coordinate::Speed).bounds();
         let valid = "speeds >= 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
         let [weakest, _] = space.axis(Coordinate::Gravity).bounds();
         let valid = "gravities > 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Gravity.field(), weakest, valid, weakest > 0.0)?;
-        // If the time of any flight overflows, that of the longest does.
-        Launch::new([0.0; 3], TimeOfFlight::Ballistic { speed: fastest, gravity: weakest })?;
+        space.require_landings()?;
         Ok(space)
+    }
+
+    /// Checks that every coin lands, after a time in the range of f64.
+    fn require_landings(&self) -> Result<(), InputError> {
+        let [speeds, gravities, drops] =
+            [Coordinate::Speed, Coordinate::Gravity, Coordinate::Drop].map(|of| self.axis(of).bounds());
+        let of_slowest = |error| match error {
+            InputError::OutOfRange { field: field @ "drop [m]", value, .. } if value.is_finite() => {
+                InputError::OutOfRange {
+                    field,
+                    value,
+                    valid: ">= -v0²/(2 g), the height that the slowest launch reaches; that of a normal speed is 8.3 deviations below \
+                        the mean",
+                }
+            }
+            other => other,
+        };
+        // The lowest throw is the slowest one under the strongest gravity; the longest flight is the fastest one under
+        // the weakest gravity.
+        for (speed, gravity, drop) in [(speeds[0], gravities[1], drops[0]), (speeds[1], gravities[0], drops[1])] {
+            let time = TimeOfFlight::thrown(speed, gravity, self.drop().map(|_| drop));
+            Launch::new([0.0; 3], time).map_err(of_slowest)?;
+        }
+        Ok(())
     }
 
     /// The space that consists of `toss` alone.
@@ -128,35 +149,21 @@ impl Space {
         self.axes[Coordinate::Turn as usize].is_some()
     }
 
-    /// The same space for coins that land `drop` (m) below their launch, or above it if `drop` is negative.
+    /// The same space for coins that land `drop` (m) below their launch, or above it if `drop` is negative; `None` for a
+    /// landing at the height of the launch.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if a coin does not reach the height of its landing, or if the time of a flight
     /// overflows.
     pub fn with_drop(self, drop: Option<f64>) -> Result<Self, InputError> {
-        let [speeds, gravities] = [Coordinate::Speed, Coordinate::Gravity].map(|of| self.axis(of).bounds());
-        // The lowest throw is the slowest one under the strongest gravity; the longest flight is the fastest one under
-        // the weakest gravity.
-        let of_slowest = |error| match error {
-            InputError::OutOfRange { field: field @ "drop [m]", value, .. } if value.is_finite() => {
-                InputError::OutOfRange {
-                    field,
-                    value,
-                    valid: ">= -v0²/(2 g), the height that the slowest launch reaches; that of a normal speed is 8.3 deviations below \
-                        the mean",
-                }
-            }
-            other => other,
-        };
-        for (speed, gravity) in [(speeds[0], gravities[1]), (speeds[1], gravities[0])] {
-            Launch::new([0.0; 3], TimeOfFlight::thrown(speed, gravity, drop)).map_err(of_slowest)?;
-        }
-        Ok(Self { drop, ..self })
+        let mut axes = self.axes;
+        axes[Coordinate::Drop as usize] = drop.map(|drop| AxisOrTie::Axis(Axis::fixed(drop)));
+        Self::new(self.body, axes)
     }
 
     /// How far below their launch the coins land (m); `None` for a landing at the height of the launch.
-    pub fn drop(&self) -> Option<f64> {
-        self.drop
+    pub fn drop(&self) -> Option<Axis> {
+        self.axes[Coordinate::Drop as usize].map(|_| self.axis(Coordinate::Drop))
     }
 
     /// The same space with another axis for one coordinate.
@@ -166,7 +173,7 @@ impl Space {
     pub fn with_axis(self, of: Coordinate, axis: impl Into<Axis>) -> Result<Self, InputError> {
         let mut axes = self.axes;
         axes[of as usize] = Some(AxisOrTie::Axis(axis.into()));
-        Self::new(self.body, axes)?.with_drop(self.drop)
+        Self::new(self.body, axes)
     }
 
     /// The coin or other body.
@@ -185,7 +192,8 @@ impl Space {
     }
 
     /// The axis that gives a coordinate its values. For a tied coordinate it is the axis of its partner, and for a rate that
-    /// follows from a precession the range of its values. The turn and ψ of a space of rates are 0.
+    /// follows from a precession the range of its values. The turn and ψ of a space of rates are 0, and so is a drop that is
+    /// not given.
     pub fn axis(&self, of: Coordinate) -> Axis {
         match self.axes[of as usize] {
             Some(AxisOrTie::Axis(axis)) => axis,
@@ -245,7 +253,8 @@ impl Space {
             Some(rate) => rate,
             None => Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ)),
         };
-        let time = TimeOfFlight::thrown(value(Coordinate::Speed), value(Coordinate::Gravity), self.drop);
+        let drop = self.drop().map(|_| value(Coordinate::Drop));
+        let time = TimeOfFlight::thrown(value(Coordinate::Speed), value(Coordinate::Gravity), drop);
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
         let tilt = value(Coordinate::Tilt);
         let tilted = if tilt == 0.0 { Ok(launch) } else { launch.with_tilt(tilt) };

@@ -1,7 +1,7 @@
 //! This file reads and writes spaces as plain data by serde, so that they can be part of any file format. A space is
 //! written as its coin and, for each coordinate by its name, a number or a text.
 
-use dynamics::{Body, Coin, Dimension, InputError};
+use dynamics::{Body, Coin, InputError};
 use serde::{Deserialize, Serialize};
 
 use crate::coordinate::Coordinate;
@@ -31,50 +31,59 @@ pub(crate) fn paper() -> Body {
     Coin::PAPER.into()
 }
 
-/// A space in a file.
+/// A space in a file, with an entry `E` for each coordinate.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SpaceData {
+pub(crate) struct SpaceData<E = Entry> {
+    #[serde(default, skip_serializing)]
+    pub(crate) description: String,
     #[serde(default = "paper", alias = "body")]
-    coin: Body,
+    pub(crate) coin: Body,
     #[serde(alias = "rate-x", skip_serializing_if = "Option::is_none")]
-    rate_x: Option<Entry>,
+    rate_x: Option<E>,
     #[serde(alias = "rate-y", skip_serializing_if = "Option::is_none")]
-    rate_y: Option<Entry>,
+    rate_y: Option<E>,
     #[serde(alias = "rate-z", skip_serializing_if = "Option::is_none")]
-    rate_z: Option<Entry>,
+    rate_z: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    speed: Option<Entry>,
+    speed: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    gravity: Option<Entry>,
+    gravity: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tilt: Option<Entry>,
+    tilt: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    turn: Option<Entry>,
+    turn: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    psi: Option<Entry>,
+    psi: Option<E>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    drop: Option<Entry>,
+    drop: Option<E>,
+}
+
+impl<E> SpaceData<E> {
+    /// Takes out the coordinates that are given.
+    pub(crate) fn take_coordinates(&mut self) -> impl Iterator<Item = (Coordinate, E)> {
+        let Self { rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop, .. } = self;
+        let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop].map(Option::take);
+        Coordinate::ALL.into_iter().zip(entries).filter_map(|(of, entry)| Some((of, entry?)))
+    }
 }
 
 impl TryFrom<SpaceData> for Space {
     type Error = InputError;
 
-    fn try_from(data: SpaceData) -> Result<Self, InputError> {
-        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop } = data;
-        let entries = Coordinate::ALL.into_iter().zip([rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi]);
-        let texts: Vec<_> = entries.filter_map(|(of, entry)| Some((of, entry?.text()))).collect();
+    fn try_from(mut data: SpaceData) -> Result<Self, InputError> {
+        let texts: Vec<_> = data.take_coordinates().map(|(of, entry)| (of, entry.text())).collect();
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
-        let drop = drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
-        Self::parse(coin, &texts)?.with_drop(drop)
+        Self::parse(data.coin, &texts)
     }
 }
 
 impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
         let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of)?.to_string()));
-        let [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi] = Coordinate::ALL.map(entry);
+        let [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop] = Coordinate::ALL.map(entry);
         Self {
+            description: String::new(),
             coin: *space.body(),
             rate_x,
             rate_y,
@@ -84,7 +93,7 @@ impl From<Space> for SpaceData {
             tilt,
             turn,
             psi,
-            drop: space.drop().map(Entry::Number),
+            drop,
         }
     }
 }

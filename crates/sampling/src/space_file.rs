@@ -18,13 +18,12 @@ use std::ops::Range;
 
 use dynamics::data::in_words;
 use dynamics::error::find_named;
-use dynamics::{Body, Dimension, Error, InputError};
-use serde::Deserialize;
+use dynamics::{Error, InputError};
 use toml::Spanned;
 
 use crate::coordinate::Coordinate;
 use crate::space::Space;
-use crate::space_data::{Entry, paper};
+use crate::space_data::{Entry, SpaceData};
 
 /// A space with its description.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,27 +34,6 @@ pub struct DescribedSpace {
     pub space: Space,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    #[serde(default)]
-    description: String,
-    #[serde(default = "paper", alias = "body")]
-    coin: Body,
-    #[serde(alias = "rate-x")]
-    rate_x: Option<Spanned<Entry>>,
-    #[serde(alias = "rate-y")]
-    rate_y: Option<Spanned<Entry>>,
-    #[serde(alias = "rate-z")]
-    rate_z: Option<Spanned<Entry>>,
-    speed: Option<Spanned<Entry>>,
-    gravity: Option<Spanned<Entry>>,
-    tilt: Option<Spanned<Entry>>,
-    turn: Option<Spanned<Entry>>,
-    psi: Option<Spanned<Entry>>,
-    drop: Option<Spanned<Entry>>,
-}
-
 impl DescribedSpace {
     /// Reads a space from TOML in the format that [this module](self) shows. If no coin is given, it is the paper's.
     ///
@@ -64,24 +42,16 @@ impl DescribedSpace {
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         // The mark of UTF-8 that some editors put before a text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi, drop } =
-            toml::from_str(text)
-                .map_err(|error: toml::de::Error| error_at(text, error.span(), in_words(error.message())))?;
-        let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt, turn, psi];
-        let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
-            .into_iter()
-            .zip(entries)
-            .filter_map(|(of, entry)| entry.map(|entry| (of, entry.span(), entry.into_inner().text())))
-            .collect();
+        let mut data: SpaceData<Spanned<Entry>> = toml::from_str(text)
+            .map_err(|error: toml::de::Error| error_at(text, error.span(), in_words(error.message())))?;
+        let given: Vec<(Coordinate, Range<usize>, String)> =
+            data.take_coordinates().map(|(of, entry)| (of, entry.span(), entry.into_inner().text())).collect();
+        let SpaceData { description, coin, .. } = data;
         let texts: Vec<(Coordinate, &str)> = given.iter().map(|(of, _, text)| (*of, text.as_str())).collect();
         let space = Space::parse(coin, &texts).map_err(|error| {
             let blamed = given.iter().find(|(of, ..)| of.field() == error.field());
             error_at(text, blamed.map(|(_, span, _)| span.clone()), error.to_string())
         })?;
-        let Some(drop) = drop else { return Ok(Self { description, space }) };
-        let (span, drop) = (drop.span(), drop.into_inner().text());
-        let dropped = Dimension::Length.read("drop [m]", &drop).and_then(|drop| space.with_drop(Some(drop)));
-        let space = dropped.map_err(|error| error_at(text, Some(span), error.to_string()))?;
         Ok(Self { description, space })
     }
 }

@@ -66,7 +66,6 @@ impl TallyData {
         }
         space.body().inertia().iter().for_each(|element| add(element));
         Coordinate::ALL.into_iter().filter_map(|of| space.axis_or_tie(of)).for_each(|axis| add(&axis));
-        space.drop().iter().for_each(|drop| add(drop));
         for CountsData { heads, tails, undecided } in counts.iter().flatten() {
             [heads, tails, undecided].into_iter().for_each(|number| add(number));
         }

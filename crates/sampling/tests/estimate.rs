@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::{Coin, Error, Landing, SolveError, Solver, Toss};
 use exact::ExactSolver;
-use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
+use sampling::Coordinate::{Drop, RateX, RateY, RateZ, Speed};
 use sampling::{Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled, Space, named_space};
 
 fn space(texts: [&str; 4]) -> Space {
@@ -189,4 +189,25 @@ fn exact_speed_rejects_a_solver() {
     let error = Sampler::by(&Fragile).estimate(&named_space("tails").unwrap(), PLANS[3]).unwrap_err();
     assert_eq!((error.kind(), error.field()), ("input", Some("solver")));
     assert!(error.to_string().contains("'fragile'"), "{error}");
+}
+
+/// A coin that is thrown flat, end over end at ω, shows heads while cos ωT > 0. It lands after T if it falls by ½ g T² - v0 T,
+/// so that the share of an interval of drops is known.
+#[test]
+fn a_drop_that_varies_has_the_share_of_its_heights() {
+    let [rate, speed, gravity, lowest] = [20.0, 2.0, 9.81, 1.0];
+    let fallen = |time: f64| (0.5 * gravity * time * time - speed * time).clamp(0.0, lowest);
+    let side = |face: i32| fallen((f64::from(face) + 0.5) * std::f64::consts::PI / rate);
+    let exact = (0..20).map(|turn| side(2 * turn) - side(2 * turn - 1)).sum::<f64>() / lowest;
+    assert!((0.3..0.7).contains(&exact), "{exact}");
+    let texts = [(RateX, "20"), (RateY, "0"), (RateZ, "0"), (Speed, "2"), (Drop, "0:1:100001")];
+    let space = Space::parse(Coin::PAPER, &texts).unwrap();
+    let plans = [Plan::Grid, PLANS[1], PLANS[2]];
+    for (plan, within) in plans.into_iter().zip([2e-5, 1e-2, 1e-4]) {
+        let found = Sampler::exact().estimate(&space, plan).unwrap();
+        assert!((found.probability - exact).abs() < within, "{plan:?}: {found:?}, not {exact}");
+    }
+    for plan in [PLANS[3], Plan::Enclosure { accuracy: 1e-3 }] {
+        assert_eq!(Sampler::exact().estimate(&space, plan).unwrap_err().field(), Some("drop [m]"));
+    }
 }

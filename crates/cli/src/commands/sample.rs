@@ -12,7 +12,7 @@ use dynamics::Thrown;
 use dynamics::thrown::Field;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
-use sampling::{Drawn, Method, Plan, Scrambled, Space};
+use sampling::{Drawn, Method, Plan, Scrambled};
 use serde::Serialize;
 use toss::defaults::SEED;
 use toss::{Backend, Body, Error, InputError, Registry, Toss, Verdict};
@@ -130,7 +130,7 @@ impl Args {
         let (mut launches, mut size) = (space.drawn(plan)?.flatten(), FIRST_CHUNK);
         while !writer.is_closed() && !watch.is_over() {
             let began = Instant::now();
-            let chunk: Vec<Given> = launches.by_ref().take(size).map(|drawn| given(&space, &drawn)).collect();
+            let chunk: Vec<Given> = launches.by_ref().take(size).map(|drawn| given(&drawn)).collect();
             if chunk.is_empty() {
                 return Ok(());
             }
@@ -161,10 +161,10 @@ impl Args {
     }
 }
 
-/// A launch of `space`.
-fn given(space: &Space, drawn: &Drawn) -> Given {
+/// A launch of a space.
+fn given(drawn: &Drawn) -> Given {
     let [wx, wy, wz, speed, gravity, tilt] = drawn.values;
-    let (speed, gravity, drop) = (Some(speed), Some(gravity), space.drop());
+    let (speed, gravity, drop) = (Some(speed), Some(gravity), drawn.toss.launch.time_of_flight().drop());
     Given { row: Row { wx, wy, wz, speed, gravity, drop, tilt, ..Row::default() }, toss: drawn.toss }
 }
 

@@ -8,13 +8,17 @@ use rand::{RngExt, TryRng};
 
 use super::*;
 
-const RANGES: [&str; 6] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1"];
-const NORMALS: [&str; 6] = ["normal:0:5", "normal:1:2", "normal:-3:3", "normal:4:0.2", "normal:9:0.1", "normal:0:1"];
+const RANGES: [&str; 7] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1", "-0.1:1"];
+const NORMALS: [&str; 7] =
+    ["normal:0:5", "normal:1:2", "normal:-3:3", "normal:4:0.2", "normal:9:0.1", "normal:0:1", "normal:1:0.1"];
+
+/// The coordinates of a space of rates.
+const OF_RATES: [Coordinate; 7] = [RateX, RateY, RateZ, Speed, Gravity, Tilt, Drop];
 
 /// The space in which the coordinates of `free` vary as in `texts`.
-fn space(free: &[Coordinate], texts: [&str; 6]) -> Space {
-    let text = |of: Coordinate| if free.contains(&of) { texts[of as usize] } else { "1" };
-    let texts: Vec<_> = Coordinate::OF_LAUNCH.into_iter().map(|of| (of, text(of))).collect();
+fn space(free: &[Coordinate], texts: [&str; 7]) -> Space {
+    let text = |(of, text)| (of, if free.contains(&of) { text } else { "1" });
+    let texts: Vec<_> = OF_RATES.into_iter().zip(texts).map(text).collect();
     Space::parse(Coin::PAPER, &texts).unwrap()
 }
 
@@ -29,10 +33,10 @@ impl TryRng for Stream {
     type Error = Infallible;
 
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
-        let pair = PAIRS.iter().position(|pair| pair.contains(&self.of)).unwrap();
+        let pair = PAIRS.iter().position(|pair| pair.contains(&Some(self.of))).unwrap();
         let block = Philox::new(self.seed).block([self.launch, pair as u64]);
         self.launch += 1;
-        Ok(block[usize::from(PAIRS[pair][1] == self.of)])
+        Ok(block[usize::from(PAIRS[pair][1] == Some(self.of))])
     }
 
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
@@ -62,11 +66,12 @@ fn launch_i_depends_on_the_seed_and_i_alone() {
     assert_ne!(random_tosses(&space, 8, 0..1)[0], all[0]);
 }
 
-/// All 64 sets of free coordinates: a coordinate has the same values whichever others vary.
+/// All 128 sets of free coordinates: a coordinate has the same values whichever others vary.
 #[test]
 fn draws_are_quantiles_of_the_generators_numbers_as_rand_makes_them_uniform() {
-    for (set, texts) in (0..1 << Coordinate::COUNT).flat_map(|set| [(set, RANGES), (set, NORMALS)]) {
-        let free: Vec<Coordinate> = Coordinate::ALL.into_iter().filter(|of| set >> *of as usize & 1 == 1).collect();
+    for (set, texts) in (0..1 << OF_RATES.len()).flat_map(|set| [(set, RANGES), (set, NORMALS)]) {
+        let free: Vec<Coordinate> =
+            OF_RATES.into_iter().zip(0..).filter(|(_, place)| set >> place & 1 == 1).map(|(of, _)| of).collect();
         let space = space(&free, texts);
         let mut streams = Coordinate::ALL.map(|of| stream(9, of));
         for toss in random_tosses(&space, 9, 0..600) {
@@ -81,7 +86,7 @@ fn draws_are_quantiles_of_the_generators_numbers_as_rand_makes_them_uniform() {
 
 #[test]
 fn launches_have_the_same_bits_at_every_level_and_length() {
-    let space = space(&Coordinate::ALL, RANGES);
+    let space = space(&OF_RATES, RANGES);
     let cube = Cube::new(&space, space.free());
     let values = |level, start, length| {
         let mut block = Block::new(&space);

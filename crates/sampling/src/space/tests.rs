@@ -1,6 +1,6 @@
 //! Tests of spaces: their coordinates, ties and drops, and what is refused.
 
-use Coordinate::{Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
+use Coordinate::{Drop, Gravity, Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
 
 use super::*;
 use crate::drawn::Drawn;
@@ -20,7 +20,7 @@ fn with(of: Coordinate, text: &'static str) -> Vec<(Coordinate, &'static str)> {
 #[test]
 fn a_tied_rate_follows_its_partner() {
     let space = parse(&BOX).unwrap();
-    let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0, 0.0, 0.0]).launch.rate();
+    let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0, 0.0, 0.0, 0.0]).launch.rate();
     assert_eq!((rate.x, rate.y, rate.z), (12.5, 12.5, 30.0));
     assert_eq!(space.free().collect::<Vec<_>>(), [RateX, Speed]);
     let all_alike = parse(&[(RateX, "z"), (RateY, "z"), (RateZ, "1:2"), (Speed, "3")]).unwrap();
@@ -42,7 +42,7 @@ fn with_body_keeps_the_launches() {
 #[test]
 fn launches_have_the_gravity_and_the_tilt() {
     let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
-    let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5, 0.0, 0.0]);
+    let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5, 0.0, 0.0, 0.0]);
     assert_eq!(toss.launch.flight_time(), 4.0);
     assert_eq!(toss.launch.attitude(), dynamics::Attitude::about_x(0.5));
 }
@@ -53,7 +53,14 @@ fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
     let toss = space.with_body(Coin::DISC).unwrap().toss(&space.fixed_values());
     let expected = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: 1.5 };
     assert_eq!(toss.launch.time_of_flight(), expected);
-    assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(1.5));
+    assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(Axis::fixed(1.5)));
+    // One that varies.
+    let space = parse(&with(Drop, "-0.458:2")).unwrap();
+    let values = [1.0, 1.0, 30.0, 4.0, 9.81, 0.0, 0.0, 0.0, -0.3];
+    let expected = TimeOfFlight::BallisticTo { speed: 4.0, gravity: 9.81, drop: -0.3 };
+    assert_eq!((space.toss(&values).launch.time_of_flight(), space.free().last()), (expected, Some(Drop)));
+    assert!(parse(&with(Drop, "-0.459:2")).unwrap_err().to_string().starts_with("drop [m] = -0.459"));
+    assert!(parse(&with(Drop, "0:1e308")).is_err() && parse(&with(Drop, "x")).is_err());
     // A throw at 3 m/s rises by 0.4587 m, and the slowest one has to reach the landing.
     assert!(space.with_drop(Some(-0.458)).is_ok());
     for (drop, speed) in [(-0.459, "3:5"), (f64::NAN, "3:5"), (-1.0, "4:5"), (-0.01, "normal:4:0.48")] {

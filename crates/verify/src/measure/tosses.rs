@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use sampling::Coordinate::{self, Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use sampling::Coordinate::{self, Drop, Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{AxisOrTie, Distribution, Space};
 use toss::{Attitude, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
 
@@ -111,7 +111,8 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
         _ => values[of as usize],
     };
     let rate = Vector3::new(value(RateX), value(RateY), value(RateZ));
-    let launch = Launch::new(rate, TimeOfFlight::thrown(value(Speed), value(Gravity), space.drop()))?;
+    let launch =
+        Launch::new(rate, TimeOfFlight::thrown(value(Speed), value(Gravity), space.drop().map(|_| value(Drop))))?;
     let launch = if value(Tilt) == 0.0 { launch } else { launch.with_tilt(value(Tilt))? };
     Ok(CoinToss { coin: space.coin().ok_or(dynamics::coin::NO_COIN)?, launch })
 }
