@@ -132,7 +132,7 @@ mod tests {
             assert!(*probability > 1.0 - 1e-7 || least_cos_tilt < 1e-15, "{rate_x}, {rate_z}: {probability}");
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
-                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0, 0.0, 0.0]).coin().unwrap();
+                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0, 0.0, 0.0, 0.0]).coin().unwrap();
                 CoinMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
             });
             assert!((probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {probability}");

@@ -121,7 +121,7 @@ mod tests {
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
             (
                 "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1",
-                "unknown field `spin`, expected one of `body`, `coin`",
+                "unknown field `spin`, expected one of `description`, `body`, `coin`",
             ),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 1\ndrop = '3s'", "drop [m] = '3s'"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),

@@ -183,7 +183,7 @@ fn a_wide_normal_speed_gives_the_long_flight_limit() {
     let heads = TiltTerms::new(
         &Space::parse(Coin::PAPER, &[(RateX, "20"), (RateY, "0"), (RateZ, "3"), (Speed, "3")])
             .unwrap()
-            .toss(&[20.0, 0.0, 3.0, 3.0, 9.81, 0.0, 0.0, 0.0])
+            .toss(&[20.0, 0.0, 3.0, 3.0, 9.81, 0.0, 0.0, 0.0, 0.0])
             .coin()
             .unwrap(),
     )

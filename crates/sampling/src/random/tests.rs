@@ -8,7 +8,7 @@ use rand::{RngExt, TryRng};
 
 use super::*;
 
-const RANGES: [&str; 7] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1", "-0.1:1"];
+const RANGES: [&str; 7] = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1", "-0.04:1"];
 const NORMALS: [&str; 7] =
     ["normal:0:5", "normal:1:2", "normal:-3:3", "normal:4:0.2", "normal:9:0.1", "normal:0:1", "normal:1:0.1"];
 
