@@ -2,7 +2,7 @@
 // classic ones, because modules cannot be loaded from file:, and the library is inside of its script, compressed.
 import { build } from "esbuild";
 import { compress } from "lzma1";
-import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -46,9 +46,8 @@ const size = {};
 for (const [entry, file] of [["main.js", "page.js"], ["scene/index.js", "scene.js"]]) {
   await build({ ...script, entryPoints: [join(here, "page", entry)], outfile: join(folder, file), plugins: [library, worker] });
 }
-for (const file of ["index.html", "style.css"]) copyFileSync(join(here, "page", file), join(folder, file));
-const uplot = readFileSync(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8");
-writeFileSync(join(folder, "style.css"), uplot + readFileSync(join(here, "page/style.css"), "utf8"));
+await build({ ...script, entryPoints: [join(here, "page/style.css")], outfile: join(folder, "style.css") });
+copyFileSync(join(here, "page/index.html"), join(folder, "index.html"));
 for (const file of ["index.html", "style.css", "page.js", "scene.js"]) {
   size[file] = gzipSync(readFileSync(join(folder, file)), { level: 9 }).length;
 }

@@ -133,11 +133,16 @@ export class Fair {
       const place = ((clientX - left) / width) * SIZE.width;
       this.take(((place - BOX.left) / (BOX.right - BOX.left)) * 90);
     };
-    const end = () => this.handle.removeEventListener("pointermove", move);
-    this.handle.addEventListener("pointermove", move);
-    this.handle.addEventListener("pointerup", end, { once: true });
-    this.handle.addEventListener("pointercancel", end, { once: true });
-    move(event);
+    const until = new AbortController();
+    const on = (name, act) => this.handle.addEventListener(name, act, { signal: until.signal });
+    on("pointermove", move);
+    on("pointerup", (last) => {
+      move(last);
+      until.abort();
+    });
+    on("pointercancel", () => until.abort());
+    // A finger may be about to scroll the page; its tap is seen when it is lifted.
+    if (event.pointerType !== "touch") move(event);
   }
 
   step(event) {

@@ -21,7 +21,10 @@ export class MapView {
     this.move = onceAFrame((x, up) => this.launchAt(x, up));
     this.canvas.addEventListener("pointerdown", (event) => this.grab(event));
     this.canvas.addEventListener("pointermove", (event) => this.point(event));
-    this.canvas.addEventListener("pointerup", () => this.release());
+    this.canvas.addEventListener("pointerup", (event) => {
+      this.point(event);
+      this.release();
+    });
     this.canvas.addEventListener("pointercancel", () => this.release());
     this.canvas.addEventListener("keydown", (event) => this.key(event));
     for (const [id, name] of [["map-over", "map"], ["map-shade", "shade"]]) {
@@ -213,7 +216,8 @@ export class MapView {
     if (!this.grid) return;
     this.isHeld = true;
     this.canvas.setPointerCapture(event.pointerId);
-    this.point(event);
+    // A finger may be about to scroll the page; its tap is seen when it is lifted.
+    if (event.pointerType !== "touch") this.point(event);
   }
 
   release() {
