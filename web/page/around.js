@@ -31,6 +31,7 @@ export class Around {
     byId("around").textContent = text;
     byId("around").title = kind;
     byId("around").hidden = !text;
+    delete byId("around").dataset.probability;
     byId("around").classList.toggle("error", isRefused);
   }
 
@@ -41,6 +42,7 @@ export class Around {
       const error = interval ? (interval[1] - interval[0]) / 2 : 5e-5;
       const range = interval ? `${percent(interval[0], error)} to ${percent(interval[1], error)}` : kind;
       this.say(probability === null ? "Of launches within ±, the share of heads is not known." : `Launches within ±: ${percent(probability, error)} heads (${range}).`, kind);
+      byId("around").dataset.probability = String(probability);
     } catch ({ message }) {
       this.say(`±: ${withPoint(message, Object.values(given).join(" "))}`, "", true);
     }

@@ -82,6 +82,7 @@ function sceneChanged() {
     toss = null;
     land();
     parts.player.clear();
+    parts.fair.clear();
     parts.map.clear();
     parts.traces.clear();
     byId("ruler").hidden = true;
