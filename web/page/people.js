@@ -55,11 +55,12 @@ export class People {
 
 const range = ([lo, hi], digits = 3) => `${lo.toFixed(digits)} to ${hi.toFixed(digits)}`.replaceAll("-", "\u2212");
 
-function words({ same, tosses, share, people, absent, mean_over_people, interval, spread, practice, cone_angle, cone_angle_interval: ends }) {
+function words({ same, tosses, share, people, absent, mean_over_people, interval, spread, next_person: next, practice, cone_angle, cone_angle_interval: ends }) {
   const said = [`${same} of ${tosses} flips landed on the side that had been up: ${short(share, 3)}.`];
   if (people.length > 1) said.push(`Over people like these the mean is ${short(mean_over_people, 3)}, from ${range(interval)} (95 %).`);
   else said.push(`The probability is from ${range(interval)} (95 %), for this hand.`);
   if (spread) said.push(spread.p_value < 0.05 ? "These people differ by more than chance." : "These people do not differ by more than chance.");
+  if (next) said.push(`A next person's probability is from ${range(next)} (95 %).`);
   if (practice) said.push(`From the earlier half of the flips to the later the share changes by ${signed(practice.change, 2)}, from ${range(practice.interval)} (95 %).`);
   if (ends) said.push(`ψ = ${degrees(cone_angle, 3)}, from ${degrees(ends[0], 3)} to ${degrees(ends[1], 3)}, explains it: the band in the curve.`);
   else said.push("No ψ explains a share below 1/2.");
@@ -74,7 +75,7 @@ function plot(found) {
   const all = [
     { name: "these flips", at: found.share, interval: found.these_flips, kind: "flips" },
     people.length > 1 && { name: "all people", at: found.mean_over_people, interval: found.interval, kind: "all" },
-    found.next_person && { name: "one more", at: null, interval: found.next_person, kind: "next" },
+    found.next_person && { name: "next person", at: null, interval: found.next_person, kind: "next" },
   ];
   const lines = [...people, ...all.filter(Boolean)];
   const lo = Math.min(0.5, ...lines.map(({ interval }) => interval[0]));

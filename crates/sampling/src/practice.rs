@@ -56,7 +56,7 @@ impl Practice {
         };
         let changes: Vec<Change> = present.into_iter().map(change).collect();
         let mut flips: Vec<f64> = changes.iter().map(|change| change.flips).collect();
-        flips.sort_by(f64::total_cmp);
+        flips.sort_unstable_by(f64::total_cmp);
         let cap = flips[(flips.len() - 1) / 2] + flips[flips.len() / 2];
         let weighted: Vec<(f64, &Change)> = changes.iter().map(|change| (change.flips.min(cap), change)).collect();
         let sum = |of: &dyn Fn(f64, &Change) -> f64| weighted.iter().map(|(w, change)| of(*w, change)).sum::<f64>();
