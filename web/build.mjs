@@ -1,11 +1,13 @@
 // Builds the page: `node build.mjs LIBRARY.wasm FOLDER`. The folder then works from a disk, without a server: scripts are
 // classic ones, because modules cannot be loaded from file:, and the library is inside of its script, compressed.
 import { build } from "esbuild";
-import { compress } from "lzma1";
 import { copyFileSync, mkdirSync, readFileSync, rmSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
+import { Encoder } from "./node_modules/lzma1/lib/encoder.js";
+import { MODES } from "./node_modules/lzma1/lib/lzma.js";
+import { InputBuffer, OutputBuffer } from "./node_modules/lzma1/lib/streams.js";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [wasm, folder] = process.argv.slice(2);
@@ -14,13 +16,27 @@ if (!wasm || !folder) {
   process.exit(2);
 }
 
+/** The settings for WebAssembly, whose bytes depend on those before them and on no alignment. */
+class WasmEncoder extends Encoder {
+  configure(mode) {
+    super.configure(mode);
+    Object.assign(this, { _numLiteralContextBits: 4, _posStateBits: 0, _posStateMask: 0 });
+  }
+}
+
+function compress(bytes) {
+  const compressed = new OutputBuffer(bytes.length);
+  new WasmEncoder().compress(new InputBuffer(bytes), compressed, MODES[9]);
+  return compressed.toArray();
+}
+
 /** Makes the import "library.wasm.lzma" the compressed library, as a Uint8Array. */
 const library = {
   name: "library",
   setup(of) {
     of.onResolve({ filter: /^library\.wasm\.lzma$/ }, () => ({ path: wasm, namespace: "library" }));
     of.onLoad({ filter: /.*/, namespace: "library" }, () => ({
-      contents: compress(readFileSync(wasm), 9),
+      contents: compress(readFileSync(wasm)),
       loader: "binary",
     }));
   },
