@@ -77,7 +77,7 @@ test("pictures in light and dark at three widths, and none is wider than its win
 });
 
 test("the picture of the README is small", async () => {
-  const page = await open(browser, "", { until: "scene", viewport: { width: 1240, height: 600 } });
+  const page = await open(browser, "", { until: "scene", viewport: { width: 1240, height: 680 } });
   await look(page, false);
   const path = join(PICTURES, "page.png");
   await page.screenshot({ path });
