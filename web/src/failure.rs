@@ -18,7 +18,7 @@ struct Reason {
 
 impl Refusal {
     pub(crate) fn new(failure: &Error) -> Self {
-        let field = failure.field().map(|field| field.to_string());
+        let field = failure.field().map(ToString::to_string);
         Self { error: Reason { kind: failure.kind(), message: failure.to_string(), field } }
     }
 }

@@ -315,7 +315,7 @@ test("dragging S turns the launch, and dragging elsewhere the camera", async () 
   // Upwards, until S is near to n: then heads is certain.
   const middle = [box.x + box.width / 2, box.y + box.height / 2];
   const from = [tip.x + tip.width / 2, tip.y + tip.height / 2].map((place, axis) => place + 0.08 * (middle[axis] - place));
-  await drag(from, [middle[0], box.y + 0.2 * box.height]);
+  await drag(from, [middle[0], box.y + 0.1 * box.height]);
   const now = await answer(page);
   assert.notEqual(now.cosTilt, before.cosTilt);
   assert.equal(now.outcome, "heads");
