@@ -30,7 +30,7 @@ export class Controls {
     this.inputs = new Map();
     for (const [index, axis] of ["x", "y", "z"].entries()) this.add(rateInput(index, axis));
     for (const one of ONE) {
-      this.add(new QuantityInput({ ...one, read: () => state.scene[one.id], write: (text) => change({ scene: { [one.id]: text } }, one.id) }));
+      this.add(new QuantityInput({ ...one, around: around(one.id), read: () => state.scene[one.id], write: (text) => change({ scene: { [one.id]: text } }, one.id) }));
     }
     this.place();
     this.bodies(known);
@@ -67,6 +67,9 @@ export class Controls {
     const buttons = PRESETS.map(({ name, title }) =>
       make("button", { type: "button", "data-preset": name, onclick: () => change(ofPreset(name), "preset") }, title));
     fill(byId("presets"), ...buttons);
+    // On a phone, where five buttons would fill the screen.
+    options(byId("preset"), [...PRESETS.map(({ name, title }) => [name, title]), ["", "A launch of your own"]], "");
+    byId("preset").addEventListener("change", ({ target }) => target.value && change(ofPreset(target.value), "preset"));
   }
 
   choices(name, first) {
@@ -92,7 +95,14 @@ export class Controls {
     for (const button of byId("presets").children) {
       button.setAttribute("aria-pressed", String(isPreset(button.dataset.preset)));
     }
-    byId("preset-words").textContent = PRESETS.find(({ name }) => isPreset(name))?.words ?? "A launch of your own.";
+    const preset = PRESETS.find(({ name }) => isPreset(name));
+    byId("preset").value = preset?.name ?? "";
+    byId("preset-words").textContent = preset?.words ?? "A launch of your own.";
+  }
+
+  /** Shows what stands behind ±. */
+  showAround() {
+    for (const input of this.inputs.values()) input.showAround();
   }
 
   /** Shows a refusal beside the input that it is about, or nowhere without one. Gives whether there was a place for it. */
@@ -112,8 +122,14 @@ export class Controls {
 function rateInput(index, axis) {
   const write = (text) => change({ scene: { rate: state.scene.rate.with(index, text) } }, `rate-${axis}`);
   return new QuantityInput({
-    id: `rate-${axis}`, label: sub("ω", axis), kind: "rate", range: [-5, 5], read: () => state.scene.rate[index], write,
+    id: `rate-${axis}`, label: sub("ω", axis), kind: "rate", range: [-5, 5], around: around(`rate-${axis}`), read: () => state.scene.rate[index], write,
   });
+}
+
+/** How the text behind ± of this input is read and written, if it has one. */
+function around(id) {
+  const name = `around-${id}`;
+  return name in state.view ? { read: () => state.view[name], write: (text) => change({ view: { [name]: text } }, name) } : null;
 }
 
 /** Whether the scene is that of the preset. */

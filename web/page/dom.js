@@ -72,3 +72,33 @@ export function save(name, content) {
   // The browser reads it after the click.
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
+
+/** A finger that has moved so far across (pixels) does not scroll the page. */
+const FAR = 10;
+
+/**
+ * Lets `moved` follow a pointer that is pressed on `element`, to where it is released; then calls `ended`. A finger that scrolls
+ * the page does not count.
+ */
+export function follow(element, moved, ended = () => {}) {
+  element.addEventListener("pointerdown", (first) => {
+    element.setPointerCapture(first.pointerId);
+    const until = new AbortController();
+    let isHeld = first.pointerType !== "touch";
+    const act = { signal: until.signal };
+    const end = () => {
+      until.abort();
+      ended();
+    };
+    element.addEventListener("pointermove", (next) => {
+      isHeld ||= Math.abs(next.clientX - first.clientX) > Math.max(FAR, Math.abs(next.clientY - first.clientY));
+      if (isHeld) moved(next);
+    }, act);
+    element.addEventListener("pointerup", (last) => {
+      moved(last);
+      end();
+    }, act);
+    element.addEventListener("pointercancel", end, act);
+    if (isHeld) moved(first);
+  });
+}

@@ -1,6 +1,6 @@
 // How fair such tosses are: P(heads) of long flights against ψ, the angle between n and S, with the launch on the curve; and
 // the part of this flight that shows heads.
-import { byId, fill, svg } from "./dom.js";
+import { byId, fill, follow, svg } from "./dom.js";
 import { degrees, percent, short, typed } from "./format.js";
 import { column, flight } from "./flight.js";
 import { POINT } from "./memory.js";
@@ -83,7 +83,7 @@ export class Fair {
     this.handle = byId("fair-curve");
     this.handle.append(chart);
     this.chart = chart;
-    this.handle.addEventListener("pointerdown", (event) => this.drag(event));
+    follow(this.handle, (event) => this.point(event));
     this.handle.addEventListener("keydown", (event) => this.step(event));
   }
 
@@ -102,6 +102,13 @@ export class Fair {
     for (const [name, value] of Object.entries({ min: 0, max: 90, now: angle, text: `ψ ${angle}°, ${percent(part, 1e-3)} heads` })) {
       this.handle.setAttribute(`aria-value${name}`, value);
     }
+  }
+
+  /** Shows no toss. */
+  clear() {
+    this.handle.hidden = true;
+    for (const id of ["fair-words", "fair-share"]) byId(id).textContent = "";
+    byId("fair-strip").toggleAttribute("hidden", true);
   }
 
   /** Shows the angles that explain people's counts, or none. */
@@ -125,19 +132,11 @@ export class Fair {
     byId("fair-share").textContent = `It shows heads ${percent(share, 1e-3)} of this flight, which ends at the right.`;
   }
 
-  /** Lets ψ follow the pointer until it is released. */
-  drag(event) {
-    this.handle.setPointerCapture(event.pointerId);
-    const move = ({ clientX }) => {
-      const { left, width } = this.chart.getBoundingClientRect();
-      const place = ((clientX - left) / width) * SIZE.width;
-      this.take(((place - BOX.left) / (BOX.right - BOX.left)) * 90);
-    };
-    const end = () => this.handle.removeEventListener("pointermove", move);
-    this.handle.addEventListener("pointermove", move);
-    this.handle.addEventListener("pointerup", end, { once: true });
-    this.handle.addEventListener("pointercancel", end, { once: true });
-    move(event);
+  /** Throws the coin with the ψ below the pointer. */
+  point({ clientX }) {
+    const { left, width } = this.chart.getBoundingClientRect();
+    const place = ((clientX - left) / width) * SIZE.width;
+    this.take(((place - BOX.left) / (BOX.right - BOX.left)) * 90);
   }
 
   step(event) {

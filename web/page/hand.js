@@ -17,7 +17,7 @@ export class Hand {
     byId("find-precision").addEventListener("click", () => this.find());
     byId("wanted").addEventListener("input", () => (byId("precision").textContent = ""));
     byId("throw-many").addEventListener("click", () => this.throwMany());
-    this.plot = new Plot(byId("plot-throws"), { title: "share of heads after so many throws", series: [], unit: "", across: "throws", range: [0, 1], value: (value) => value.toFixed(3) });
+    this.plot = new Plot(byId("plot-throws"), { title: "share of heads after so many throws", unit: "", range: [0, 1], value: (value) => value.toFixed(3) });
     this.update = later(120, () => this.compute());
   }
 
@@ -86,7 +86,6 @@ export class Hand {
 
   /** Draws again, in other colours. */
   recolour() {
-    this.plot.isStale = true;
     this.drawThrows();
   }
 

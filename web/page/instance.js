@@ -21,9 +21,9 @@ export class Instance {
     this.exported = (await WebAssembly.instantiate(this.module, {})).exports;
   }
 
-  /** Asks the question called `ask`, with what else it takes, and gives its answer. Throws `Refused` if it has none. */
-  ask({ ask: name, ...rest }) {
-    const answer = JSON.parse(this.raw(JSON.stringify(Object.keys(rest).length > 0 ? { [name]: rest } : name)));
+  /** Asks a question, whose name is `ask`, and gives its answer. Throws `Refused` if it has none. */
+  ask(question) {
+    const answer = JSON.parse(this.raw(JSON.stringify(question)));
     if (answer.error) throw new Refused(answer.error);
     return answer;
   }

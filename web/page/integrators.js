@@ -29,7 +29,7 @@ export class Integrators {
     for (const name of ["solver", "scheme", "tolerance", "step", "formulation"]) {
       byId(name).addEventListener("input", ({ target }) => change({ view: { [name]: target.value } }, "integrators"));
     }
-    this.plot = new Plot(byId("plot-errors"), { title: "error of the attitude (rad)", series: [], logarithmic: true, height: 230, value: (value) => value.toExponential(1) });
+    this.plot = new Plot(byId("plot-errors"), { title: "error of the attitude (rad)", logarithmic: true, height: 230, value: (value) => value.toExponential(1) });
     this.update = later(250, () => this.compute());
     // Nothing is computed before somebody can see it.
     new IntersectionObserver(([seen]) => this.see(seen.isIntersecting), { rootMargin: "200px" }).observe(byId("integrators"));
@@ -113,7 +113,6 @@ export class Integrators {
     });
     const dashes = [[], [8, 4], [2, 3]];
     const series = curves.map(({ solver }, index) => ({ label: solver.name, colour: ofSolver(solver.color), dash: dashes[index % 3] }));
-    this.plot.isStale = true;
     const hasAny = columns.some((column) => column.some((value) => value != null));
     byId("plot-errors").hidden = !hasAny;
     if (hasAny) this.plot.draw([times, ...columns], series);

@@ -1,6 +1,8 @@
 // The library of the page: questions in JSON, and numbers read from its memory.
 import compressed from "library.wasm.lzma";
-import { decompress } from "lzma1";
+// The decoder alone: the package's own entry brings the encoder along.
+import { Decoder } from "../node_modules/lzma1/lib/decoder.js";
+import { InputBuffer, OutputBuffer } from "../node_modules/lzma1/lib/streams.js";
 import { Instance } from "./instance.js";
 import { FRAME, POINT } from "./memory.js";
 
@@ -8,7 +10,9 @@ let library = null;
 
 /** Unpacks and starts the library. */
 export async function start() {
-  library = new Instance(await WebAssembly.compile(decompress(compressed)));
+  const unpacked = new OutputBuffer(4 * compressed.length);
+  new Decoder().decompress(new InputBuffer(compressed), unpacked);
+  library = new Instance(await WebAssembly.compile(unpacked.toArray()));
   await library.start();
 }
 

@@ -1,6 +1,7 @@
 // Starts the page: the library, the first answer, then what is slower.
 import { ask, frame, start } from "./library.js";
 import { read } from "./address.js";
+import { Around } from "./around.js";
 import { showAnswer, showRefusal } from "./answer.js";
 import { Controls } from "./controls.js";
 import { byId, later, onceAFrame, save } from "./dom.js";
@@ -28,7 +29,7 @@ async function main() {
   apply();
   await start();
   const known = ask({ ask: "known" });
-  Object.assign(parts, { controls: new Controls(known), fair: new Fair(), map: new MapView(), hand: new Hand(), traces: new Traces(), lesson: new Lesson() });
+  Object.assign(parts, { controls: new Controls(known), around: new Around(), fair: new Fair(), map: new MapView(), hand: new Hand(), traces: new Traces(), lesson: new Lesson() });
   parts.people = new People((angles) => parts.fair.explain(angles));
   parts.integrators = new Integrators(known);
   parts.player = new Player(show);
@@ -68,6 +69,7 @@ const announce = later(700, (text) => (byId("announcement").textContent = text))
 function sceneChanged() {
   parts.controls.show();
   parts.player.refresh();
+  parts.around.clear();
   parts.hand.clear();
   parts.integrators.clear();
   try {
@@ -80,6 +82,7 @@ function sceneChanged() {
     toss = null;
     land();
     parts.player.clear();
+    parts.fair.clear();
     parts.map.clear();
     parts.traces.clear();
     byId("ruler").hidden = true;
@@ -97,6 +100,7 @@ function sceneChanged() {
 
 const restOfAnswer = onceAFrame(() => {
   if (!toss) return;
+  parts.around.show();
   parts.fair.show(toss);
   parts.map.update(toss);
   parts.traces.draw();
@@ -109,7 +113,9 @@ function viewChanged() {
   parts.player.refresh();
   parts.lesson.show();
   parts.people.show();
+  parts.controls.showAround();
   if (!toss) return;
+  parts.around.show();
   parts.map.update(toss);
   parts.hand.show();
   parts.integrators.show();

@@ -1,7 +1,7 @@
 // The map: proven outcomes, or P(heads), over ωx and a second input, with the lines that have a formula. The launch is a
 // point in it, which can be dragged and moved by the arrow keys.
 import { ask, cells } from "./library.js";
-import { byId, onceAFrame } from "./dom.js";
+import { byId, follow, onceAFrame } from "./dom.js";
 import { niceAbove, short, ticks, typed } from "./format.js";
 import { change, question, state } from "./state.js";
 import { colours, ofProbability } from "./theme.js";
@@ -19,10 +19,7 @@ export class MapView {
     this.grid = null;
     this.timing = [];
     this.move = onceAFrame((x, up) => this.launchAt(x, up));
-    this.canvas.addEventListener("pointerdown", (event) => this.grab(event));
-    this.canvas.addEventListener("pointermove", (event) => this.point(event));
-    this.canvas.addEventListener("pointerup", () => this.release());
-    this.canvas.addEventListener("pointercancel", () => this.release());
+    follow(this.canvas, (event) => this.point(event), () => this.release());
     this.canvas.addEventListener("keydown", (event) => this.key(event));
     for (const [id, name] of [["map-over", "map"], ["map-shade", "shade"]]) {
       byId(id).addEventListener("change", ({ target }) => change({ view: { [name]: target.value } }, "map"));
@@ -209,13 +206,6 @@ export class MapView {
     byId("map-lines").textContent = lines.join("; ");
   }
 
-  grab(event) {
-    if (!this.grid) return;
-    this.isHeld = true;
-    this.canvas.setPointerCapture(event.pointerId);
-    this.point(event);
-  }
-
   release() {
     if (!this.isHeld) return;
     this.isHeld = false;
@@ -223,7 +213,8 @@ export class MapView {
   }
 
   point(event) {
-    if (!this.isHeld || !this.grid) return;
+    if (!this.grid) return;
+    this.isHeld = true;
     const box = this.canvas.getBoundingClientRect();
     const { width, height } = this.box();
     const part = (value) => Math.max(0, Math.min(1, value));

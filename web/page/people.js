@@ -1,7 +1,7 @@
 // People's own flips: the counts as they were typed, and what they say.
 import { ask } from "./library.js";
 import { byId, fill, later, svg } from "./dom.js";
-import { degrees, short } from "./format.js";
+import { degrees, short, signed } from "./format.js";
 import { change, state } from "./state.js";
 
 /** The drawing: its width, the place of its shares, and the height of a row. */
@@ -12,23 +12,6 @@ const ROW = 18;
 const LONGEST_NAME = 14;
 /** Rows are drawn of so many people; the numbers are of all. */
 const MOST_ROWS = 60;
-
-/** The people in `text`, a line each: name, same, flips, or the counts alone. A heading is passed over. */
-export function people(text) {
-  const found = [];
-  for (const [index, line] of text.split(/\r?\n/).entries()) {
-    if (line.trim() === "" || (found.length === 0 && /\b(same|tosses|flips)\b/i.test(line))) continue;
-    const cells = line.split(/[,;\t/]/).map((cell) => cell.trim());
-    const counts = cells.slice(-2);
-    const wrong = counts.find((cell) => !/^\d{1,15}$/.test(cell));
-    if (cells.length < 2 || cells.length > 3) throw new Error(`line ${index + 1}: a name, the same side and all flips are needed, as in Ada, 11, 20`);
-    if (wrong !== undefined) throw new Error(`line ${index + 1}: '${wrong}' is no count; valid is a whole number`);
-    const [same, flips] = counts.map(Number);
-    if (same > flips) throw new Error(`line ${index + 1}: ${same} of ${flips} flips landed on the same side; valid is at most all of them`);
-    found.push({ name: cells.length === 3 ? cells[0] : String(found.length + 1), same, flips });
-  }
-  return found;
-}
 
 /** The card. `explains` is told the angles ψ that explain the counts, or null. */
 export class People {
@@ -49,12 +32,10 @@ export class People {
 
   compute() {
     try {
-      const found = people(this.text);
+      this.say(this.text.trim() ? ask({ ask: "people", text: this.text }) : null);
       this.refuse(null);
-      if (found.every(({ flips }) => flips === 0)) return this.say([], null);
-      this.say(found, ask({ ask: "people", counts: found.map(({ same, flips }) => [same, flips]) }));
     } catch (refusal) {
-      this.say([], null);
+      this.say(null);
       this.refuse(refusal);
     }
   }
@@ -65,40 +46,43 @@ export class People {
     byId("people-error").hidden = refusal === null;
   }
 
-  say(rows, found) {
+  say(found) {
     this.explains(found?.cone_angle_interval ?? null);
-    fill(byId("people-plot"), found && plot(rows, found));
-    byId("people-words").textContent = found ? words(rows, found) : "";
+    fill(byId("people-plot"), found && plot(found));
+    byId("people-words").textContent = found ? words(found) : "";
   }
 }
 
-const range = ([lo, hi]) => `${lo.toFixed(3)} to ${hi.toFixed(3)}`;
+const range = ([lo, hi], digits = 3) => `${lo.toFixed(digits)} to ${hi.toFixed(digits)}`.replaceAll("-", "\u2212");
 
-function words(rows, { same, tosses, share, mean_over_people, interval, spread, cone_angle, cone_angle_interval: ends }) {
+function words({ same, tosses, share, people, absent, mean_over_people, interval, spread, next_person: next, practice, cone_angle, cone_angle_interval: ends }) {
   const said = [`${same} of ${tosses} flips landed on the side that had been up: ${short(share, 3)}.`];
-  if (rows.length > 1) said.push(`Over people like these the mean is ${short(mean_over_people, 3)}, from ${range(interval)} (95 %).`);
+  if (people.length > 1) said.push(`Over people like these the mean is ${short(mean_over_people, 3)}, from ${range(interval)} (95 %).`);
   else said.push(`The probability is from ${range(interval)} (95 %), for this hand.`);
   if (spread) said.push(spread.p_value < 0.05 ? "These people differ by more than chance." : "These people do not differ by more than chance.");
+  if (next) said.push(`A next person's probability is from ${range(next)} (95 %).`);
+  if (practice) said.push(`From the earlier half of the flips to the later the share changes by ${signed(practice.change, 2)}, from ${range(practice.interval)} (95 %).`);
   if (ends) said.push(`ψ = ${degrees(cone_angle, 3)}, from ${degrees(ends[0], 3)} to ${degrees(ends[1], 3)}, explains it: the band in the curve.`);
   else said.push("No ψ explains a share below 1/2.");
-  if (rows.length > MOST_ROWS) said.push(`The first ${MOST_ROWS} of ${rows.length} people are drawn.`);
+  if (absent > 0) said.push(`${absent} without a flip: passed over.`);
+  if (people.length > MOST_ROWS) said.push(`The first ${MOST_ROWS} of ${people.length} people are drawn.`);
   return said.join(" ");
 }
 
-/** The forest plot: a row for each person, and below them all together. */
-function plot(rows, found) {
-  const people = rows.slice(0, MOST_ROWS).map(({ name, same, flips }, index) => ({ name, at: flips > 0 ? same / flips : null, interval: found.each[index], kind: "person" }));
+/** The forest plot: a row for each of several people, and below them all together. */
+function plot(found) {
+  const people = found.people.slice(0, MOST_ROWS).map(({ person: name, probability: at, interval }) => ({ name, at, interval, kind: "person" }));
   const all = [
     { name: "these flips", at: found.share, interval: found.these_flips, kind: "flips" },
-    rows.length > 1 && { name: "all people", at: found.mean_over_people, interval: found.interval, kind: "all" },
-    found.next_person && { name: "one more", at: null, interval: found.next_person, kind: "next" },
+    people.length > 1 && { name: "all people", at: found.mean_over_people, interval: found.interval, kind: "all" },
+    found.next_person && { name: "next person", at: null, interval: found.next_person, kind: "next" },
   ];
   const lines = [...people, ...all.filter(Boolean)];
   const lo = Math.min(0.5, ...lines.map(({ interval }) => interval[0]));
   const hi = Math.max(0.5, ...lines.map(({ interval }) => interval[1]));
   const across = (share) => BOX.left + ((share - lo) / (hi - lo)) * (BOX.right - BOX.left);
   const height = ROW * lines.length + 26;
-  const label = `The shares of ${rows.length} people with their 95 % intervals, and those of all`;
+  const label = `The shares of ${people.length || 1} people with their 95 % intervals, and those of all`;
   const chart = svg("svg", { viewBox: `0 0 ${WIDTH} ${height}`, class: "forest", role: "img", "aria-label": label });
   chart.append(svg("line", { x1: across(0.5), x2: across(0.5), y1: 0, y2: height - 22, class: "fair" }));
   for (const [index, { name, at, interval, kind }] of lines.entries()) {

@@ -13,11 +13,11 @@ export function unitOf(kind, text) {
 
 /**
  * A labelled slider and text. `range` is the slider's range in SI units; `grows` lets it follow a larger value. `read`
- * gives the text of the state, `write` takes a new one.
+ * gives the text of the state, `write` takes a new one. `around`, if given, reads and writes the text behind ±.
  */
 export class QuantityInput {
-  constructor({ id, label, kind, range, grows = true, read, write }) {
-    Object.assign(this, { id, kind, range, least: range, grows, read, write });
+  constructor({ id, label, kind, range, grows = true, read, write, around = null }) {
+    Object.assign(this, { id, kind, range, least: range, grows, read, write, around });
     this.text = make("input", {
       id, type: "text", autocomplete: "off", spellcheck: "false", inputmode: "text", "aria-describedby": `${id}-error`,
       oninput: () => this.write(this.text.value), onchange: () => this.follow(),
@@ -30,13 +30,28 @@ export class QuantityInput {
     this.error = make("p", { class: "error", id: `${id}-error`, hidden: true });
     const caption = make("label", { for: id, title: label.title ?? null });
     caption.innerHTML = label.html ?? label.text;
-    this.element = make("div", { class: "quantity" }, caption, this.slider, this.text, this.unit, this.error);
+    this.element = make("div", { class: "quantity" }, caption, this.text, this.unit, around && this.aroundInput(label), this.slider, this.error);
+  }
+
+  /** The text behind ±: how well the quantity is known. */
+  aroundInput({ text }) {
+    this.deviation = make("input", {
+      type: "text", id: `around-${this.id}`, autocomplete: "off", spellcheck: "false", placeholder: "0", "aria-label": `${text}, known to within`,
+      oninput: () => this.around.write(this.deviation.value),
+    });
+    return make("span", { class: "around" }, make("span", { "aria-hidden": "true" }, "±"), this.deviation);
   }
 
   /** Shows the text of the state. */
   show() {
+    this.showAround();
     if (document.activeElement !== this.text && this.text.value !== this.read()) this.text.value = this.read();
     this.follow(document.activeElement === this.slider);
+  }
+
+  /** Shows the text behind ±. */
+  showAround() {
+    if (this.deviation && document.activeElement !== this.deviation) this.deviation.value = this.around.read();
   }
 
   /** Marks the text as refused, with the reason; or as good, without one. */

@@ -34,6 +34,8 @@ const VIEW = {
   pace: "0.1",
   people: "",
   lesson: "0",
+  // How well an input is known.
+  ...Object.fromEntries(["rate-x", "rate-y", "rate-z", "turn", "psi", "speed", "tilt"].map((name) => [`around-${name}`, ""])),
 };
 
 /** The scene and the view; they change by `change` alone. */
@@ -69,6 +71,12 @@ export function question(scene = state.scene) {
   }
   if (isGiven(scene, "tilt")) asked.tilt = scene.tilt;
   return asked;
+}
+
+/** What stands behind ± of the inputs that apply, by their names. */
+export function around({ scene, view } = state) {
+  const names = [...(scene.by === "rate" ? ["rate-x", "rate-y", "rate-z"] : ["turn", "psi"]), ...(scene.flight === "speed" ? ["speed"] : []), "tilt"];
+  return Object.fromEntries(names.map((name) => [name, view[`around-${name}`].trim()]).filter(([, text]) => text !== ""));
 }
 
 /** Whether a text is neither blank nor what the library takes without it. */

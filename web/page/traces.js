@@ -10,9 +10,9 @@ export class Traces {
   constructor() {
     const unit = (unit) => (value) => `${value.toPrecision(4)}${unit}`;
     this.plots = {
-      tilt: new Plot(byId("plot-tilt"), { title: "cos θ: above 0 the coin shows heads", series: [], value: unit("") }),
-      height: new Plot(byId("plot-height"), { title: "height above the launch", series: [], value: unit(" m"), height: 120 }),
-      rates: new Plot(byId("plot-rates"), { title: "body rates", series: [], value: unit(" rad/s"), height: 150 }),
+      tilt: new Plot(byId("plot-tilt"), { title: "cos θ: above 0 the coin shows heads", value: unit("") }),
+      height: new Plot(byId("plot-height"), { title: "height above the launch", value: unit(" m"), height: 120 }),
+      rates: new Plot(byId("plot-rates"), { title: "body rates", value: unit(" rad/s"), height: 150 }),
     };
   }
 
@@ -38,7 +38,6 @@ export class Traces {
 
   /** Draws again, in other colours. */
   recolour() {
-    for (const plot of Object.values(this.plots)) plot.isStale = true;
     if (flight.answer) this.draw();
   }
 

@@ -85,11 +85,11 @@ mod tests {
     #[test]
     fn a_question_is_answered_through_addresses_alone() {
         let long = format!("{{\"{}\":1}}", "x".repeat(10_000));
-        for refused in [&b""[..], b"{\"magic\":{}}", b"\xff\xfe", long.as_bytes()] {
+        for refused in [&b""[..], b"{\"ask\":\"magic\"}", b"\xff\xfe", long.as_bytes()] {
             assert!(asked(refused).starts_with("{\"error\":{\"kind\":\"input\""), "{refused:?}");
         }
         let scene = "\"scene\":{\"rate\":[\"1\",\"1\",\"2.5\"],\"speed\":\"3\"}";
-        let fly = format!("{{\"fly\":{{{scene},\"points\":3}}}}");
+        let fly = format!("{{\"ask\":\"fly\",{scene},\"points\":3}}");
         assert!(!asked(fly.as_bytes()).contains("error"), "{}", asked(fly.as_bytes()));
         // SAFETY: a frame has so many numbers, and lives until the next call.
         let frame = unsafe { slice::from_raw_parts(frame(0.0), crate::flight::FRAME) };

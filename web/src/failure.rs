@@ -1,15 +1,26 @@
 //! Errors as JSON. They have the words and the kinds of the command line.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 use toss::Error;
 
-/// `{"error":{"kind","message","field"?}}`.
-pub(crate) fn to_json(failure: &Error) -> Value {
-    let mut error = json!({ "kind": failure.kind(), "message": failure.to_string() });
-    if let Some(field) = failure.field() {
-        error["field"] = json!(field);
+/// An error as an answer.
+#[derive(Debug, Serialize)]
+pub(crate) struct Refusal {
+    error: Reason,
+}
+
+#[derive(Debug, Serialize)]
+struct Reason {
+    kind: &'static str,
+    message: String,
+    field: Option<String>,
+}
+
+impl Refusal {
+    pub(crate) fn new(failure: &Error) -> Self {
+        let field = failure.field().map(ToString::to_string);
+        Self { error: Reason { kind: failure.kind(), message: failure.to_string(), field } }
     }
-    json!({ "error": error })
 }
 
 /// The error of a question that is not understood.

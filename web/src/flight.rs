@@ -15,7 +15,7 @@ pub(crate) const FRAME: usize = 15;
 pub(crate) const POINT: usize = 12;
 
 /// The most points of a trace.
-const MOST_POINTS: usize = 20_000;
+const MOST_POINTS: u32 = 20_000;
 
 /// A flight whose motion is prepared.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ pub(crate) struct Flight {
 #[derive(Debug, Serialize)]
 pub(crate) struct Course {
     flight_time: f64,
-    points: usize,
+    points: u32,
     /// The direction of the angular momentum S (LF); `None` for a body at rest.
     momentum: Option<[f64; 3]>,
     /// The largest height above the launch (m).
@@ -50,7 +50,7 @@ impl Flight {
     ///
     /// # Errors
     /// [`InputError`] for fewer than 2 or more than [`MOST_POINTS`] points, and a phase that is too large.
-    pub(crate) fn trace(&self, points: usize, numbers: &mut Vec<f64>) -> Result<Course, Error> {
+    pub(crate) fn trace(&self, points: u32, numbers: &mut Vec<f64>) -> Result<Course, Error> {
         if !(2..=MOST_POINTS).contains(&points) {
             let expected = "2 to 20000";
             return Err(InputError::Malformed { field: "points", value: points.to_string(), expected }.into());
@@ -58,7 +58,7 @@ impl Flight {
         let phase = self.motion.phase(self.toss.launch.time_of_flight())?;
         let flight_time = self.toss.launch.flight_time();
         for index in 0..points {
-            let time = flight_time * (index as f64 / (points - 1) as f64);
+            let time = flight_time * (f64::from(index) / f64::from(points - 1));
             numbers.extend(self.point(time)?);
         }
         let flight = self.toss.launch.time_of_flight();

@@ -23,9 +23,12 @@ pub(crate) struct Throws {
 
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
 pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Estimate, Error> {
-    let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
-    let plan = plan(&space);
-    Sampler::exact().sampled(&space, plan)
+    over(&thrown.space()?.with_spread(part("spread", spread)?, &HAND)?)
+}
+
+/// P(heads) over the launches of `space`.
+pub(crate) fn over(space: &Space) -> Result<Estimate, Error> {
+    Sampler::exact().sampled(space, plan(space))
 }
 
 /// How `number` random throws land, with the spread of [`probability`].

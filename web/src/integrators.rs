@@ -13,7 +13,7 @@ const MOST_CALLS: u64 = 3_000_000;
 /// A solver with its settings, as texts.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Chosen {
+pub(crate) struct Chosen {
     solver: String,
     scheme: Option<String>,
     tolerance: Option<String>,

@@ -7,18 +7,18 @@
 //!                                     ├─► fly: a trace, then one frame at a time
 //!                                     ├─► aim: the launch whose S points elsewhere
 //!                                     ├─► map, line: outcomes or P(heads) over two inputs
-//!                                     ├─► hand: P(heads) for a spread
+//!                                     ├─► hand: P(heads) for a spread, or where inputs are not known exactly
 //!                                     └─► compare, growth, repeat: integrators beside the exact motion
 //! ```
 //!
-//! [`Page::ask`] takes a [question](ask::Question) and gives its answer, or `{"error":{"kind","message","field"?}}` in the
+//! [`Page::ask`] takes a question and gives its answer, or `{"error":{"kind","message","field"?}}` in the
 //! words of the library. What is needed at every frame of an animation, and the cells of a map, are read from memory
 //! instead ([`Page::frame`], [`Page::numbers`], [`Page::cells`]). `border` exports all of it to JavaScript.
 //!
 //! All numbers are in SI units and radians; BF is the body frame, LF the laboratory frame with z up.
 
 mod aim;
-pub mod ask;
+mod ask;
 mod border;
 mod failure;
 mod flight;
@@ -33,4 +33,3 @@ mod people;
 mod thrown;
 
 pub use page::Page;
-pub use thrown::Scene;

@@ -23,7 +23,7 @@ pub(crate) enum Up {
 /// The grid of a map: its cells are at equally spaced values, both ends included.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Grid {
+pub(crate) struct Grid {
     pub(crate) up: Up,
     /// The range of ωx (rad/s).
     pub(crate) across: [f64; 2],

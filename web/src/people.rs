@@ -1,31 +1,30 @@
-//! What the counts of people's flips say.
+//! What the counts of people's flips say, by the reader and in the words of the command line.
 
-use sampling::{SameSide, SameSideBias};
+use sampling::{Counted, CountsError, people};
 use serde::Serialize;
 use toss::Error;
 
-/// The answer: the bias of all, and the interval of each person's share.
+/// The answer.
 #[derive(Debug, Serialize)]
-pub(crate) struct Counted {
+pub(crate) struct Answer {
     #[serde(flatten)]
-    found: SameSideBias,
+    counted: Counted,
     /// The share of all flips.
     share: f64,
     /// ψ of the mean over people (rad).
     cone_angle: Option<f64>,
-    each: Vec<[f64; 2]>,
 }
 
-/// What the `counts` of people say, each the landings on the side that had been up, and the flips.
-pub(crate) fn counted(counts: &[[u64; 2]]) -> Result<Counted, Error> {
-    let people: Vec<SameSide> =
-        counts.iter().map(|[same, tosses]| SameSide::new(*same, *tosses)).collect::<Result<_, _>>()?;
-    let found = SameSideBias::of(&people)?;
-    let alone = |person: &SameSide| match SameSideBias::of(&[*person]) {
-        Ok(alone) => alone.interval.into(),
-        // Without a flip.
-        Err(_) => [0.0, 1.0],
+/// What the table in `text` says.
+pub(crate) fn counted(text: &str) -> Result<Answer, Error> {
+    let counted = Counted::of(&people(text.as_bytes()).map_err(at_its_place)?)?;
+    Ok(Answer { share: counted.found.share, cone_angle: counted.found.cone.map(|cone| cone.angle), counted })
+}
+
+fn at_its_place(wrong: CountsError) -> Error {
+    let (line, column, message) = match wrong {
+        CountsError::Table(error) => (error.line, error.column, error.message),
+        CountsError::Cell { line, column, source } => (line, column, source.to_string()),
     };
-    let each = people.iter().map(alone).collect();
-    Ok(Counted { share: found.share, cone_angle: found.cone.map(|cone| cone.angle), each, found })
+    Error::Text { line: usize::try_from(line).unwrap_or(usize::MAX), column, message }
 }

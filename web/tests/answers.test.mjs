@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
-import { PROGRAM, answer, close, launchBrowser, open, text } from "./browser.mjs";
+import { PROGRAM, address, answer, close, launchBrowser, open, text } from "./browser.mjs";
 import { LAUNCHES, OF_BODIES, asAddress, asOptions } from "./launches.mjs";
 
 let browser;
@@ -92,6 +92,31 @@ test("P(heads) of a hand is the program's to rounding: sines of two platforms ma
     const rates = Object.fromEntries((rate ?? "").split(",").filter(Boolean).map((part, axis) => [`rate-${"xyz"[axis]}`, part]));
     const { probability } = asked("probability", ...asOptions({ ...rates, ...rest }), ...options);
     assert.ok(Math.abs(Number(shown) - probability) < 1e-14, `${shown}, ${probability}`);
+    await close(page);
+  }
+});
+
+test("P(heads) within ± is the program's, in each of its forms, and is kept by the address", async () => {
+  const launch = { coin: "us-quarter", turn: "38rev/s", psi: "70deg", speed: "2.4m/s" };
+  for (const [typed, options, method] of [
+    [{ psi: "2deg", turn: "0.5rev/s", speed: "5cm/s" }, ["--turn=normal:38rev/s:0.5rev/s", "--psi=normal:70deg:2deg", "--speed=normal:2.4m/s:5cm/s"], "exact-speed"],
+    [{ psi: "66deg:74deg", tilt: "normal:1deg:2deg" }, ["--turn=38rev/s", "--psi=66deg:74deg", "--speed=2.4m/s", "--tilt=normal:1deg:2deg"], "sobol"],
+  ]) {
+    const page = await open(browser, asAddress(launch));
+    for (const [name, text] of Object.entries(typed)) await page.fill(`#around-${name}`, text);
+    await page.waitForFunction((name) => document.getElementById("around").dataset.probability && document.activeElement.id.endsWith(name), Object.keys(typed).at(-1));
+    await page.waitForTimeout(300);
+    const shown = Number(await page.getAttribute("#around", "data-probability"));
+    const { probability } = asked("probability", "--coin=us-quarter", ...options, "--method", method, "--points", "4096", "--seed", "1");
+    assert.ok(Math.abs(shown - probability) < 1e-14, `${shown}, ${probability}`);
+    const again = await open(browser, await address(page));
+    await again.waitForFunction((shown) => Number(document.getElementById("around").dataset.probability) === shown, shown);
+    await close(again);
+    await page.fill("#around-psi", "2 parsecs");
+    await page.waitForFunction(() => document.getElementById("around").textContent.includes("psi"));
+    assert.match(await text(page, "around"), /expected an angle/);
+    for (const name of Object.keys(typed)) await page.fill(`#around-${name}`, "");
+    assert.ok(await page.locator("#around").isHidden());
     await close(page);
   }
 });

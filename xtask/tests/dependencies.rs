@@ -15,7 +15,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("kinematics-euler", &["dynamics", "numerics"]),
     ("kinematics-quat", &["dynamics", "numerics"]),
     ("exact", &["dynamics", "numerics"]),
-    ("sampling", &["dynamics", "exact", "numerics"]),
+    ("sampling", &["dynamics", "exact", "numerics", "whole-file"]),
     ("toss", &["numerics", "dynamics", "exact", "kinematics-euler", "kinematics-quat", "sampling"]),
     ("chart", &[]),
     ("whole-file", &[]),

@@ -11,7 +11,6 @@ mod failure;
 mod help;
 mod json;
 mod output;
-mod people_file;
 mod quantity;
 mod solver_args;
 mod space_args;

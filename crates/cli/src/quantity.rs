@@ -118,8 +118,11 @@ pub(crate) fn interval(Interval { lo, hi }: Interval, places: usize) -> String {
     format!("{} to {}", outwards(lo, places, false), outwards(hi, places, true))
 }
 
-/// A number ≥ 0 rounded down or `up`, from all of its digits.
+/// A number rounded down or `up`, from all of its digits.
 pub(crate) fn outwards(value: f64, places: usize, up: bool) -> String {
+    if value < 0.0 {
+        return format!("-{}", outwards(-value, places, !up));
+    }
     let all = format!("{value:.1074}");
     let (kept, rest) = all.split_at(all.len() - 1074 + places);
     let units: u128 = kept.replace('.', "").parse().unwrap_or_default();

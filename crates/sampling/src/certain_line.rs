@@ -4,7 +4,10 @@
 //! The coin shows heads for ever if φ + ψ ≤ 90°, where φ is the angle of S with the vertical and ψ that with n, or if the two
 //! are as near to 180°. With s = (ωx, ωy, k ωz), which is S over I1, and the vertical v = (0, sin b, cos b), both in the body
 //! frame at a launch with the tilt b, the edge is where (s · v)² = ωx² + ωy² and s · v has the sign of k ωz. From horizontal
-//! that is k |ωz| = sqrt(ωx² + ωy²), ψ = 45° or 135°. Over two rates it is a conic section.
+//! that is k |ωz| = sqrt(ωx² + ωy²), ψ = 45° or 135°. Over two rates it is a conic section. A launch by turn and ψ has ωy = 0,
+//! and the line is straight: tan ψ = ±cos b.
+
+use std::f64::consts::PI;
 
 use crate::coordinate::Coordinate;
 use crate::map::Map;
@@ -39,9 +42,6 @@ pub fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'static st
     if axes.contains(&Coordinate::Tilt) {
         return Err("no line: over the tilt it has no formula");
     }
-    if space.is_of_precession() {
-        return Err("no line: over the turn and ψ it has no formula here");
-    }
     if !axes.iter().any(|of| is_of_motion(*of)) {
         return Err("no line: neither axis is a rate");
     }
@@ -49,14 +49,46 @@ pub fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'static st
     let Some(coin) = space.coin() else {
         return Err("no line: with I1 ≠ I2 it has no formula");
     };
-    let edge = Edge::new(space, axes, coin.inertia_ratio());
-    let pieces = edge.pieces([ends(&map.across.1), ends(&map.up.1)]);
+    let ranges = [ends(&map.across.1), ends(&map.up.1)];
+    let (pieces, spins) = if space.is_of_precession() {
+        over_psi(space, axes, ranges)?
+    } else {
+        let edge = Edge::new(space, axes, coin.inertia_ratio());
+        let pieces = edge.pieces(ranges);
+        let spins = pieces.iter().flatten().map(|at| value(edge.signs[1], *at)).collect();
+        (pieces, spins)
+    };
     if pieces.is_empty() {
         return Err("no line: it does not pass through this map");
     }
     let is_horizontal = space.axis(Coordinate::Tilt).value() == Some(0.0);
-    let angles = if is_horizontal { edge.angles(&pieces) } else { "" };
-    Ok(CertainLine { pieces, angles })
+    Ok(CertainLine { pieces, angles: if is_horizontal { angles(&spins) } else { "" } })
+}
+
+/// The pieces over ψ and another coordinate, which has no part in it, and the sense of the spin on each.
+fn over_psi(
+    space: &Space,
+    axes: [Coordinate; 2],
+    ranges: [[f64; 2]; 2],
+) -> Result<(Vec<Piece>, Vec<f64>), &'static str> {
+    let place = axes.iter().position(|of| *of == Coordinate::Psi).ok_or("no line: neither axis is ψ")?;
+    let cone = space.axis(Coordinate::Tilt).bounds()[0].cos().atan();
+    let [lo, hi] = ranges[place];
+    let on_map = [(cone, 1.0), (PI - cone, -1.0)].into_iter().filter(|(psi, _)| cone > 0.0 && (lo..=hi).contains(psi));
+    let piece = |(psi, spin): (f64, f64)| {
+        let at = |other: f64| if place == 0 { (psi, other) } else { (other, psi) };
+        (ranges[1 - place].map(at).to_vec(), spin)
+    };
+    Ok(on_map.map(piece).unzip())
+}
+
+/// The angles ψ on the line of launches from horizontal, by the sense of the spin along it.
+fn angles(spins: &[f64]) -> &'static str {
+    match (spins.iter().any(|spin| *spin > 0.0), spins.iter().any(|spin| *spin < 0.0)) {
+        (true, true) => "ψ = 45° and 135°",
+        (false, true) => "ψ = 135°",
+        _ => "ψ = 45°",
+    }
 }
 
 /// A quantity `p[0] u + p[1] v + p[2]`, where u and v are the values of the two axes.
@@ -111,16 +143,6 @@ impl Edge {
             pieces.extend(runs.map(without_straight_points).filter(|run| run.len() > 1));
         }
         pieces
-    }
-
-    /// The angles ψ on `pieces` of launches from horizontal, by the sense of the spin.
-    fn angles(&self, pieces: &[Piece]) -> &'static str {
-        let spins = || pieces.iter().flatten().map(|at| value(self.signs[1], *at));
-        match (spins().any(|spin| spin > 0.0), spins().any(|spin| spin < 0.0)) {
-            (true, true) => "ψ = 45° and 135°",
-            (false, true) => "ψ = 135°",
-            _ => "ψ = 45°",
-        }
     }
 
     /// Values of u at which the line is computed: evenly spaced, where it turns back, and where it meets the frame.

@@ -108,7 +108,7 @@ impl Best {
 impl People {
     /// People of whom each has `[same, tosses]`. In whichever order they come, the result has the same bits.
     pub(crate) fn new(mut counts: Vec<[f64; 2]>) -> Self {
-        counts.sort_by(|[same, tosses], [x, n]| tosses.total_cmp(n).then(same.total_cmp(x)));
+        counts.sort_unstable_by(|[same, tosses], [x, n]| tosses.total_cmp(n).then(same.total_cmp(x)));
         #[expect(clippy::cast_precision_loss, reason = "fewer people than 2^53")]
         let number = counts.len() as f64;
         let [same, tosses] = [0, 1].map(|part| counts.iter().map(|count| count[part]).sum());

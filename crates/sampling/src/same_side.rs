@@ -33,6 +33,11 @@ impl SameSide {
         Ok(Self { same, tosses })
     }
 
+    /// The counts of flips of which each landed on the side that had been up, or did not.
+    pub fn of_landings(landings: &[bool]) -> Self {
+        Self { same: landings.iter().filter(|same| **same).count() as u64, tosses: landings.len() as u64 }
+    }
+
     /// The number of landings on the same side.
     pub fn same(self) -> u64 {
         self.same

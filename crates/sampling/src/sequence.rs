@@ -2,8 +2,6 @@
 
 use dynamics::InputError;
 
-use crate::same_side::SameSide;
-
 /// Which side is up before a flip, where only the first one was written down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NextStart {
@@ -27,35 +25,28 @@ impl NextStart {
     }
 }
 
-impl SameSide {
-    /// The counts of flips whose `lands` are letters H and T in order, from a `start` of one letter for each flip, or of one for
-    /// the first and a `rule` for the others. Blanks and commas between letters are passed over.
-    ///
-    /// # Errors
-    /// [`InputError::Malformed`] for another letter, with its place, and for a `start` of another length; [`InputError::Missing`] without a
-    /// `rule` where one is needed.
-    pub fn of_sequence(start: &str, lands: &str, rule: Option<NextStart>) -> Result<Self, InputError> {
-        let (start, lands) = (letters("start", start)?, letters("lands", lands)?);
-        let starts: Vec<bool> = match (start.as_slice(), rule) {
-            _ if start.len() == lands.len() => start,
-            ([first], Some(NextStart::Fixed)) => vec![*first; lands.len()],
-            ([first], Some(NextStart::Last)) => std::iter::once(*first).chain(lands.iter().copied()).collect(),
-            ([_], None) => {
-                let expected = "a column rule with last or fixed, because start has one letter for several flips";
-                return Err(InputError::Missing { field: "rule", expected });
-            }
-            _ => {
-                let value = format!("{} letters for {} flips", start.len(), lands.len());
-                return Err(InputError::Malformed {
-                    field: "start",
-                    value,
-                    expected: "one letter, or one for each flip",
-                });
-            }
-        };
-        let same = starts.iter().zip(&lands).filter(|(start, land)| start == land).count();
-        Self::new(same as u64, lands.len() as u64)
-    }
+/// Whether each flip landed on the side that had been up. `lands` are letters H and T in order, from a `start` of one letter for
+/// each flip, or of one for the first and a `rule` for the others. Blanks and commas between letters are passed over.
+///
+/// # Errors
+/// [`InputError::Malformed`] for another letter, with its place, and for a `start` of another length; [`InputError::Missing`]
+/// without a `rule` where one is needed.
+pub fn landings(start: &str, lands: &str, rule: Option<NextStart>) -> Result<Vec<bool>, InputError> {
+    let (start, lands) = (letters("start", start)?, letters("lands", lands)?);
+    let starts: Vec<bool> = match (start.as_slice(), rule) {
+        _ if start.len() == lands.len() => start,
+        ([first], Some(NextStart::Fixed)) => vec![*first; lands.len()],
+        ([first], Some(NextStart::Last)) => std::iter::once(*first).chain(lands.iter().copied()).collect(),
+        ([_], None) => {
+            let expected = "a column rule with last or fixed, because start has one letter for several flips";
+            return Err(InputError::Missing { field: "rule", expected });
+        }
+        _ => {
+            let value = format!("{} letters for {} flips", start.len(), lands.len());
+            return Err(InputError::Malformed { field: "start", value, expected: "one letter, or one for each flip" });
+        }
+    };
+    Ok(starts.iter().zip(&lands).map(|(start, land)| start == land).collect())
 }
 
 /// Whether each letter is an H.
@@ -75,6 +66,7 @@ fn letters(field: &'static str, text: &str) -> Result<Vec<bool>, InputError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::same_side::SameSide;
 
     /// By hand: the same letters by each rule.
     #[test]
@@ -90,7 +82,7 @@ mod tests {
             ("", "", None, 0, 0),
             ("H", "", Some(NextStart::Last), 0, 0),
         ] {
-            let found = SameSide::of_sequence(start, lands, rule).unwrap();
+            let found = SameSide::of_landings(&landings(start, lands, rule).unwrap());
             assert_eq!((found.same(), found.tosses()), (same, tosses), "{start} {lands} {rule:?}");
         }
     }
@@ -104,7 +96,7 @@ mod tests {
             ("", "HTH", Some(NextStart::Last), "start = '0 letters for 3 flips'"),
             ("H", "HTH", None, "rule is missing"),
         ] {
-            let error = SameSide::of_sequence(start, lands, rule).unwrap_err().to_string();
+            let error = landings(start, lands, rule).unwrap_err().to_string();
             assert!(error.starts_with(expected), "{error}");
         }
         assert_eq!(NextStart::read("always").unwrap_err().field(), "rule");

@@ -13,16 +13,21 @@
 //! | a device, a pipe, a socket | written through |
 //! | a read-only file, a folder | an error |
 
+#[cfg(feature = "files")]
 mod file;
 mod printable;
+#[cfg(feature = "files")]
 mod standard;
 mod table;
 mod text;
 
+#[cfg(feature = "files")]
 use std::io;
+#[cfg(feature = "files")]
 use std::path::Path;
 
 pub use printable::{is_hidden, printable, printable_lines};
+#[cfg(feature = "files")]
 pub use standard::{leads_to, print, report, unless_closed};
 pub use table::{Row, Table, TableError};
 pub use text::{NotText, text};
@@ -31,6 +36,7 @@ pub use text::{NotText, text};
 ///
 /// # Errors
 /// If the output can't be written. A regular file is then what it was, and nothing is left behind.
+#[cfg(feature = "files")]
 pub fn write(path: &Path, content: &str) -> io::Result<()> {
     if leads_to(path) { print(content) } else { unless_closed(file::write(path, content.as_bytes())) }
 }

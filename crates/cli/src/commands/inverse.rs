@@ -5,14 +5,16 @@
 use std::path::Path;
 
 use dynamics::quantity::read_count;
-use sampling::{Cone, FEW_PEOPLE, Interval, SameSide, SameSideBias, Spread, long_flight_cone, rate_ratio};
+use sampling::{
+    Cone, Counted, CountsError, FEW_PEOPLE, Named, Person, Practice, SameSide, SameSideBias, Spread, long_flight_cone,
+    rate_ratio,
+};
 use serde::Serialize;
 use toss::{Coin, InputError};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, Asked, ChartArgs, Format, FormatArgs, row, table};
-use crate::people_file::{self, Named};
 use crate::quantity::{self, interval, outwards};
 use crate::toss_args::CoinArgs;
 
@@ -46,31 +48,6 @@ struct Rates {
     counted: Option<Counted>,
 }
 
-/// What is known of people and of ψ from counts.
-#[derive(Serialize)]
-struct Counted {
-    #[serde(flatten)]
-    found: SameSideBias,
-    people: Vec<Person>,
-    /// How many people tossed nothing.
-    absent: usize,
-}
-
-/// A person of several, alone.
-#[derive(Serialize)]
-struct Person {
-    person: String,
-    #[serde(flatten)]
-    counts: SameSide,
-    probability: f64,
-    /// The interval of the probability.
-    #[serde(skip)]
-    interval: Interval,
-    /// ψ and its interval (rad); `None` if no ψ explains the counts.
-    cone_angle: Option<f64>,
-    cone_angle_interval: Option<[f64; 2]>,
-}
-
 impl Args {
     pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let coin = self.coin.coin()?;
@@ -92,14 +69,23 @@ impl Args {
 fn people(text: &str) -> Result<Vec<Named>, Failure> {
     const EXPECTED: &str = "K/N with whole numbers, such as 178078/350757, or a file that ends in .csv";
     if output::has_ending(text, ".csv") {
-        return people_file::read(Path::new(text));
+        return in_file(Path::new(text));
     }
     let unreadable = || InputError::unreadable("counts", text, EXPECTED);
     let (same, tosses) = text.split_once('/').ok_or_else(unreadable)?;
     let numbers = read_count(same).zip(read_count(tosses));
     let (same, tosses) = numbers.ok_or_else(unreadable)?;
     let counts = SameSide::new(same, tosses).map_err(|source| Failure::value("counts", source))?;
-    Ok(vec![Named { name: "1".to_owned(), counts }])
+    Ok(vec![Named { name: "1".to_owned(), counts, landings: None }])
+}
+
+fn in_file(path: &Path) -> Result<Vec<Named>, Failure> {
+    let bytes = output::read_bytes("counts", path)?;
+    let path = || path.display().to_string();
+    sampling::people(&bytes).map_err(|wrong| match wrong {
+        CountsError::Table(error) => Failure::table(&path(), error),
+        CountsError::Cell { line, column, source } => Failure::Row { path: path(), line, column, source },
+    })
 }
 
 impl Rates {
@@ -110,16 +96,11 @@ impl Rates {
     }
 
     fn counted(coin: Coin, people: &[Named]) -> Result<Self, Failure> {
-        let counts: Vec<SameSide> = people.iter().map(|person| person.counts).collect();
-        let found = SameSideBias::of(&counts).map_err(|source| Failure::value("counts", source))?;
-        let (probability, inertia_ratio) = (found.share, coin.inertia_ratio());
+        let counted = Counted::of(people).map_err(|source| Failure::value("counts", source))?;
+        let (found, inertia_ratio) = (&counted.found, coin.inertia_ratio());
         let rate_ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose()?;
-        let cone_angle = found.cone.map(|cone| cone.angle);
-        let absent = people.len() - found.people;
-        let present = people.iter().filter(|person| person.counts.tosses() > 0);
-        let people = if found.people > 1 { present.map(Person::new).collect() } else { Vec::new() };
-        let counted = Some(Counted { found, people, absent });
-        Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted })
+        let (probability, cone_angle) = (found.share, found.cone.map(|cone| cone.angle));
+        Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted: Some(counted) })
     }
 
     /// The forest plot of the counts.
@@ -146,15 +127,16 @@ impl Rates {
         };
         let SameSideBias { counts, .. } = &counted.found;
         let mut lines = vec![format!("same side    {} of {}, {probability:.6}", counts.same(), counts.tosses())];
-        lines.extend(counted.shares());
+        let shown = Shown(counted);
+        lines.extend(shown.shares());
         lines.push(format!("ψ            {}", angle(&counted.found)));
         lines.extend(ratio.filter(|_| is_of_a_coin).map(|ratio| [ratio, coin]).into_iter().flatten());
         lines.push(
             "assumed      independent flips; long flights from horizontal, all with this ψ; 180° - ψ explains them as well"
                 .to_owned(),
         );
-        lines.extend(counted.notes());
-        lines.extend(counted.table());
+        lines.extend(shown.notes());
+        lines.extend(shown.table());
         lines.join("\n")
     }
 }
@@ -176,24 +158,31 @@ fn angle(&SameSideBias { cone, mean, interval, .. }: &SameSideBias) -> String {
     }
 }
 
+fn p_value_of(p_value: f64) -> String {
+    if p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") }
+}
+
 /// The ends of an interval of ψ, rounded outwards.
 fn ends_in_degrees([least, most]: [f64; 2]) -> [String; 2] {
     [outwards(least.to_degrees(), 2, false), outwards(most.to_degrees(), 2, true)]
 }
 
-impl Counted {
+/// What is printed of counts.
+struct Shown<'a>(&'a Counted);
+
+impl Shown<'_> {
     /// The lines about the shares of these people, of all, and of a further one.
     fn shares(&self) -> Vec<String> {
-        let SameSideBias { these_flips, mean, interval: whole, interval_kind, spread, next_person, .. } = &self.found;
-        let number = self.people.len();
+        let SameSideBias { these_flips, mean, interval: whole, interval_kind, spread, next_person, .. } = &self.0.found;
+        let number = self.0.people.len();
         if number == 0 {
-            return vec![format!("interval     {} ({interval_kind})", interval(*whole, 6))];
+            let alone = format!("interval     {} ({interval_kind})", interval(*whole, 6));
+            return std::iter::once(alone).chain(self.practice()).collect();
         }
         let spread = spread.map_or_else(
             || "not known, as all landings are the same".to_owned(),
             |Spread { sd, interval: ends, p_value, .. }| {
-                let p_value = if p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") };
-                let ends = interval(ends, 4);
+                let (ends, p_value) = (interval(ends, 4), p_value_of(p_value));
                 format!("{sd:.4} between people, from {ends} (95 %); if all are alike, p = {p_value}")
             },
         );
@@ -210,27 +199,38 @@ impl Counted {
             format!("spread       {spread}"),
         ];
         lines.extend(next_person.map(|ends| format!("next person  from {} (95 %)", interval(ends, 3))));
+        lines.extend(self.practice());
         lines
     }
 
+    /// The change from the earlier half of each person's flips to the later, if their order is known.
+    fn practice(&self) -> Option<String> {
+        let Practice { change, interval: ends, p_value } = self.0.practice?;
+        let (ends, p_value) = (interval(ends, 4), p_value_of(p_value));
+        Some(format!(
+            "practice     {change:+.4} from the earlier half of each one's flips to the later, from {ends} (95 %); if nobody \
+             changes, p = {p_value}"
+        ))
+    }
+
     fn notes(&self) -> Vec<String> {
-        let number = self.people.len();
+        let number = self.0.people.len();
         let few = format!("note         {number} people say little about others");
-        let (are, absent) = (if self.absent == 1 { "person is" } else { "people are" }, self.absent);
+        let (are, absent) = (if self.0.absent == 1 { "person is" } else { "people are" }, self.0.absent);
         let absent = format!("note         {absent} {are} passed over, without a toss");
-        let said = [(self.absent > 0, absent), ((2..FEW_PEOPLE).contains(&number), few)];
+        let said = [(self.0.absent > 0, absent), ((2..FEW_PEOPLE).contains(&number), few)];
         said.into_iter().filter_map(|(is_so, note)| is_so.then_some(note)).collect()
     }
 
     /// Each of several people alone.
     fn table(&self) -> Vec<String> {
-        if self.people.is_empty() {
+        if self.0.people.is_empty() {
             return Vec::new();
         }
         let heading = row(["person", "same", "tosses", "share", "ψ/°", "from", "to"]);
-        let rows = std::iter::once(heading).chain(self.people.iter().map(Person::cells));
+        let rows = std::iter::once(heading).chain(self.0.people.iter().map(cells));
         let mut lines = vec![table(&rows.collect::<Vec<_>>())];
-        if self.people.iter().any(|person| person.cone_angle.is_none()) {
+        if self.0.people.iter().any(|person| person.cone_angle.is_none()) {
             lines.push(
                 "-            the whole interval of this person's share is below 1/2, which no ψ explains".to_owned(),
             );
@@ -240,27 +240,13 @@ impl Counted {
     }
 }
 
-impl Person {
-    fn new(Named { name, counts }: &Named) -> Self {
-        let alone = SameSideBias::of(&[*counts]).ok();
-        let cone: Option<Cone> = alone.as_ref().and_then(|found| found.cone);
-        Self {
-            person: name.clone(),
-            counts: *counts,
-            probability: counts.share(),
-            interval: alone.map_or(Interval { lo: 0.0, hi: 1.0 }, |found| found.interval),
-            cone_angle: cone.map(|cone| cone.angle),
-            cone_angle_interval: cone.map(|cone| cone.interval),
-        }
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let degrees =
-            |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| format!("{:.2}", angle.to_degrees()));
-        let none = || ["-", "-"].map(str::to_owned);
-        let [least, most] = self.cone_angle_interval.map_or_else(none, ends_in_degrees);
-        let [same, tosses] = [self.counts.same(), self.counts.tosses()].map(|count| count.to_string());
-        let share = format!("{:.6}", self.probability);
-        row([&self.person, &same, &tosses, &share, &degrees(self.cone_angle), &least, &most])
-    }
+/// A person as a row of the table.
+fn cells(one: &Person) -> Vec<String> {
+    let degrees =
+        |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| format!("{:.2}", angle.to_degrees()));
+    let none = || ["-", "-"].map(str::to_owned);
+    let [least, most] = one.cone_angle_interval.map_or_else(none, ends_in_degrees);
+    let [same, tosses] = [one.counts.same(), one.counts.tosses()].map(|count| count.to_string());
+    let share = format!("{:.6}", one.probability);
+    row([&one.person, &same, &tosses, &share, &degrees(one.cone_angle), &least, &most])
 }

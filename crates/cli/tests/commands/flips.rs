@@ -45,9 +45,21 @@ fn an_angle_explains_counts_of_one_hand_and_of_people() {
         (&found["same"], &found["tosses"], found["people"].as_array().unwrap().len()),
         (&137.into(), &300.into(), 3)
     );
+    assert!(found["practice"].is_null() && found["people"][2]["interval"][0].as_f64().is_some_and(|lo| lo < 0.2));
     assert!(found["people"][2]["cone_angle"].is_null() && found["interval_kind"] == "beta-binomial 95 % of 3 people");
     assert_eq!((&found["people"][1]["person"], &found["absent"]), (&"B".into(), &0.into()));
     assert!(stdout(&run(&people)).contains("assumed      independent flips; long flights from horizontal"));
+    // Student's interval of three people with as many flips, cut at -1.
+    let order = counted(
+        "person,start,lands,rule\nA,H,HHTHTTTHHT,last\nB,H,HHHTTHTHTT,fixed\nC,H,HTHTH,fixed\nC,H,TTTTT,fixed\n",
+    );
+    let practice = json(&order, 0)["practice"].clone();
+    assert_near(&practice["change"], -0.2, 1e-12);
+    assert_near(&practice["p_value"], 0.477_767_032_132_906_5, 1e-9);
+    assert_near(&practice["interval"][1], 0.793_655_084_700_132_4, 1e-9);
+    let said =
+        "practice     -0.2000 from the earlier half of each one's flips to the later, from -1.0000 to 0.7937 (95 %)";
+    assert!(stdout(&run(&order)).contains(said), "{}", stdout(&run(&order)));
     for (text, line, column, field, words) in [
         ("same,tosses\n3,4\n5,4\n", 3, 1, "same", "same = 5.0 is outside its valid range: 0 to the number of tosses"),
         ("same,tosses\n0,0\n", 1, 1, "counts", "a person with a toss in a row"),

@@ -101,7 +101,17 @@ const ANSWERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("intervals", &["--rate 1,1,2 --speed 2:3", "--rate 2,2,0.5 --speed 3:5"]),
-    ("inverse", &["--probability 0.7", "--probability 70%", "--counts 50/100", "--counts 9/100", "--counts PEOPLE"]),
+    (
+        "inverse",
+        &[
+            "--probability 0.7",
+            "--probability 70%",
+            "--counts 50/100",
+            "--counts 9/100",
+            "--counts PEOPLE",
+            "--counts ORDER",
+        ],
+    ),
     (
         "power",
         &[
@@ -133,6 +143,8 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
     std::fs::write(&scene, "accuracy = 1e-9\n[want.tilt]\nlaunch = { rate = [1, 1, 2], speed = 3 }\n").unwrap();
     let people = folder.path().join("people.csv");
     std::fs::write(&people, "same,tosses\n56,100\n60,100\n30,100\n").unwrap();
+    let order = folder.path().join("order.csv");
+    std::fs::write(&order, "person,start,lands,rule\nA,H,HTHHT,last\nB,H,HTTHH,last\n").unwrap();
     let parts = ["RANDOM", "GRID", "EXACT-SPEED", "SOBOL"].map(|method| {
         let path = folder.path().join(format!("{method}.json")).display().to_string();
         let space = if method == "EXACT-SPEED" { "tails" } else { "paper-fig4" };
@@ -147,6 +159,7 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
         for options in *runs {
             let options = options.replace("SCENE", &scene.display().to_string());
             let options = options.replace("PEOPLE", &people.display().to_string());
+            let options = options.replace("ORDER", &order.display().to_string());
             let options = parts.iter().fold(options, |options, (name, path)| options.replace(name, path));
             let answer = json(&format!("{command} {options}"), 0);
             assert_eq!((&answer["schema"], &answer["input"]["command"]), (&1.into(), &(*command).into()));

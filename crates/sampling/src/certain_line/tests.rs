@@ -1,6 +1,7 @@
 //! Tests of the line: it lies where the exact motion has its edge, whatever the grid of the map.
 
-use Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+use Coordinate::{Psi, RateX, RateY, RateZ, Speed, Tilt, Turn};
+use dynamics::precession::rate_of_precession;
 use dynamics::{Coin, CoinToss, Launch, TimeOfFlight, Vector3};
 use exact::CoinMotion;
 
@@ -65,6 +66,29 @@ fn both_lines_are_drawn_where_the_spin_has_both_senses() {
     }
     assert_eq!(pieces.len(), 2);
     assert_eq!(drawn(Coin::PAPER, &texts, [RateX, RateZ]).unwrap().angles, "ψ = 45° and 135°");
+}
+
+#[test]
+fn over_psi_the_line_is_straight_and_on_the_edge_of_the_exact_motion() {
+    for (tilt, psi, axes, number, expected) in [
+        (0.0, "0:90deg:4", [Turn, Psi], 1, "ψ = 45°"),
+        (0.0, "10deg:170deg:4", [Psi, Turn], 2, "ψ = 45° and 135°"),
+        (0.6, "10deg:170deg:4", [Psi, Turn], 2, ""),
+    ] {
+        let text = tilt.to_string();
+        let texts = [(Turn, "30:60:3"), (Psi, psi), (Tilt, text.as_str()), (Speed, "3:5")];
+        let CertainLine { pieces, angles } = drawn(Coin::PAPER, &texts, axes).unwrap();
+        assert_eq!((pieces.len(), angles), (number, expected));
+        for (across, up) in pieces.into_iter().flatten() {
+            let [turn, psi] = if axes[0] == Psi { [up, across] } else { [across, up] };
+            let rate = rate_of_precession(&Coin::PAPER, turn, psi).unwrap();
+            assert!(least_cos_tilt(Coin::PAPER, rate, tilt).abs() < 1e-12, "{turn}, {psi}, {tilt}");
+        }
+    }
+    let texts = [(Turn, "30:60:3"), (Psi, "60deg"), (Speed, "3:5:3")];
+    assert_eq!(line(Coin::PAPER, &texts, [Turn, Speed]).unwrap_err(), "no line: neither axis is ψ");
+    let texts = [(Turn, "30:60:3"), (Psi, "60deg:90deg:3"), (Speed, "3:5:3")];
+    assert_eq!(line(Coin::PAPER, &texts, [Turn, Psi]).unwrap_err(), "no line: it does not pass through this map");
 }
 
 /// The axes of a space, the two that are mapped, and the tilt.

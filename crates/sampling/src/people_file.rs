@@ -1,72 +1,106 @@
-//! Reads a file with how many coins of each person landed on the side that had been up.
+//! Reads a table of how many coins of each person landed on the side that had been up, for every interface.
 
-use std::path::Path;
+use std::fmt;
 
+use dynamics::InputError;
 use dynamics::quantity::read_count;
-use sampling::{NextStart, SameSide};
-use toss::InputError;
 use whole_file::{Row, Table, TableError};
 
-use crate::failure::Failure;
-use crate::output;
+use crate::same_side::SameSide;
+use crate::sequence::{NextStart, landings};
 
-/// The counts of a person.
-pub(crate) struct Named {
+/// What a table says of a person.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Named {
     /// The person's name, or the number of the row.
-    pub(crate) name: String,
-    pub(crate) counts: SameSide,
-}
-
-/// The people in a CSV file, in order of their first rows. It has the columns `same` and `tosses`, or `start` and `lands` with
-/// flips as letters, and then may have `rule`. It may have `person`: the rows of one name are added up. Other columns and rows without any text are passed over.
-pub(crate) fn read(path: &Path) -> Result<Vec<Named>, Failure> {
-    let bytes = output::read_bytes("counts", path)?;
-    let path = || path.display().to_string();
-    people(&bytes).map_err(|wrong| match wrong {
-        Wrong::Table(error) => Failure::table(&path(), error),
-        Wrong::Cell { line, column, source } => Failure::Row { path: path(), line, column, source },
-    })
+    pub name: String,
+    /// The flips.
+    pub counts: SameSide,
+    /// Whether each flip landed on the side that had been up, in order; `None` unless all were given as letters.
+    pub landings: Option<Vec<bool>>,
 }
 
 /// The columns that a file needs.
 const COLUMNS: &str = "the columns same and tosses, or start and lands, in the heading";
 
-/// What is wrong with a file.
-#[derive(Debug)]
-enum Wrong {
+/// What is wrong with a table of counts.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CountsError {
+    /// It is no table.
     Table(TableError),
-    Cell { line: u64, column: usize, source: InputError },
+    /// A cell can't be used.
+    Cell {
+        /// The line, from 1.
+        line: u64,
+        /// The cell in it, from 1.
+        column: usize,
+        /// What is wrong with it.
+        source: InputError,
+    },
 }
 
-impl From<TableError> for Wrong {
+impl From<TableError> for CountsError {
     fn from(error: TableError) -> Self {
         Self::Table(error)
     }
 }
 
-fn people(text: &[u8]) -> Result<Vec<Named>, Wrong> {
+impl fmt::Display for CountsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Table(error) => error.fmt(f),
+            Self::Cell { line, column, source } => write!(f, "line {line}, column {column}: {source}"),
+        }
+    }
+}
+
+impl std::error::Error for CountsError {}
+
+/// The people in a table, in order of their first rows. It has the columns `same` and `tosses`, or `start` and `lands` with
+/// flips as letters, and then may have `rule`. It may have `person`: the rows of one name are added up. Other columns and rows
+/// without any text are passed over. A table whose first row ends in two counts has no heading: its columns are `person`, which
+/// may be left out, `same` and `tosses`.
+///
+/// # Errors
+/// [`CountsError`], with its place.
+pub fn people(text: &[u8]) -> Result<Vec<Named>, CountsError> {
     let mut table = Table::new(text)?;
     let missing = |field, expected| InputError::Missing { field, expected };
-    let heading = table.heading().line();
-    let in_heading = |source: InputError| Wrong::Cell { line: heading, column: 1, source };
-    if table.heading().is_blank() {
+    let heading = table.heading().clone();
+    let in_heading = |source: InputError| CountsError::Cell { line: heading.line(), column: 1, source };
+    if heading.is_blank() {
         return Err(in_heading(missing("counts", COLUMNS)));
     }
-    let columns = Columns::new(table.heading()).map_err(in_heading)?;
+    let (columns, mut first) = match Columns::without_heading(&heading) {
+        Some(columns) => (columns, Some(heading.clone())),
+        None => (Columns::new(&heading).map_err(in_heading)?, None),
+    };
     let mut people: Vec<Named> = Vec::new();
     let mut number = 0;
-    while let Some(row) = table.row()? {
+    while let Some(row) =
+        first.take().map_or_else(|| Ok(table.row()?.cloned()), |row| Ok::<_, TableError>(Some(row)))?
+    {
         number += 1;
-        let at = |source: InputError| Wrong::Cell { line: row.line(), column: columns.of(source.field()), source };
-        let Named { name, counts } = columns.person(row, number).map_err(at)?;
-        match people.iter_mut().find(|person| person.name == name) {
-            None => people.push(Named { name, counts }),
-            Some(known) => known.counts = SameSide::sum([known.counts, counts]).map_err(at)?,
+        let at =
+            |source: InputError| CountsError::Cell { line: row.line(), column: columns.of(source.field()), source };
+        let person = columns.person(&row, number).map_err(at)?;
+        match people.iter_mut().find(|known| known.name == person.name) {
+            None => people.push(person),
+            Some(known) => known.add(person).map_err(at)?,
         }
     }
     let is_present = people.iter().any(|person| person.counts.tosses() > 0);
     let nobody = missing("counts", "a person with a toss in a row below the heading");
     if is_present { Ok(people) } else { Err(in_heading(nobody)) }
+}
+
+impl Named {
+    /// Adds the flips of another row of the same person.
+    fn add(&mut self, other: Self) -> Result<(), InputError> {
+        self.counts = SameSide::sum([self.counts, other.counts])?;
+        self.landings = self.landings.take().zip(other.landings).map(|(earlier, later)| [earlier, later].concat());
+        Ok(())
+    }
 }
 
 /// Where the columns are.
@@ -103,6 +137,14 @@ impl Columns {
         Ok(Self { flips, person: place("person")? })
     }
 
+    /// The columns of a table whose first row ends in two counts, with a name before them or nothing.
+    fn without_heading(first: &Row) -> Option<Self> {
+        let same = first.columns().checked_sub(2).filter(|before| *before <= 1)?;
+        let is_data = first.cells().skip(same).all(|cell| read_count(cell).is_some());
+        let (person, flips) = ((same > 0).then_some(0), Flips::Counts { same, tosses: same + 1 });
+        is_data.then_some(Self { person, flips })
+    }
+
     /// The column, from 1, of the cell with this field; 1 for what is in no single column.
     fn of(&self, field: &str) -> usize {
         let place = match (field, &self.flips) {
@@ -123,18 +165,20 @@ impl Columns {
             let cell = row.cell(place);
             read_count(cell).ok_or_else(|| InputError::unreadable(field, cell, "a whole number, such as 1000"))
         };
-        let counts = match self.flips {
-            Flips::Counts { same, tosses } => SameSide::new(count("same", same)?, count("tosses", tosses)?)?,
+        let (counts, landings) = match self.flips {
+            Flips::Counts { same, tosses } => (SameSide::new(count("same", same)?, count("tosses", tosses)?)?, None),
             Flips::Letters { start, lands, rule } => {
                 let rule = rule.map(|place| row.cell(place)).filter(|text| !text.is_empty());
-                SameSide::of_sequence(row.cell(start), row.cell(lands), rule.map(NextStart::read).transpose()?)?
+                let rule = rule.map(NextStart::read).transpose()?;
+                let landings = landings(row.cell(start), row.cell(lands), rule)?;
+                (SameSide::of_landings(&landings), Some(landings))
             }
         };
         let name = self.person.map_or_else(|| number.to_string(), |place| row.cell(place).to_owned());
         if name.is_empty() {
             return Err(InputError::Missing { field: "person", expected: "a name in each row" });
         }
-        Ok(Named { name, counts })
+        Ok(Named { name, counts, landings })
     }
 }
 
@@ -143,7 +187,7 @@ mod tests {
     use super::*;
 
     fn counts(text: &str) -> Vec<(String, u64, u64)> {
-        let of = |Named { name, counts }| (name, counts.same(), counts.tosses());
+        let of = |Named { name, counts, .. }| (name, counts.same(), counts.tosses());
         people(text.as_bytes()).unwrap_or_else(|wrong| panic!("{wrong:?}")).into_iter().map(of).collect()
     }
 
@@ -154,6 +198,10 @@ mod tests {
         assert_eq!(named, [("Ada".to_owned(), 53, 100), ("Ben".to_owned(), 0, 0)]);
         let numbered = counts("\u{feff}tosses,same\n4,3\n\n4,1\n");
         assert_eq!(numbered, [("1".to_owned(), 3, 4), ("2".to_owned(), 1, 4)]);
+        for text in ["Ada, 11, 20\nBen, 9, 20\nAda, 1, 2", "Ada\t11\t20\r\nBen\t9\t20\r\nAda\t1\t2\r\n"] {
+            assert_eq!(counts(text), [("Ada".to_owned(), 12, 22), ("Ben".to_owned(), 9, 20)]);
+        }
+        assert_eq!(counts("11;20\n9;20\n"), [("1".to_owned(), 11, 20), ("2".to_owned(), 9, 20)]);
     }
 
     /// One row a person or a session, and one row a flip.
@@ -190,10 +238,13 @@ mod tests {
                 ("same,tosses|0,0||0,0|", 1, 1, "counts"),
                 ("same,tosses|", 1, 1, "counts"),
                 ("", 1, 1, "counts"),
+                ("Ada,1,2|Ben,3,2|", 2, 2, "same"),
+                ("Ada,x,2|", 1, 1, "same"),
+                ("A,1,2,3|", 1, 1, "same"),
             ] {
-                let (of, in_it, what) = match people(text.replace('|', end).as_bytes()).err().expect(text) {
-                    Wrong::Table(TableError { line, column, message }) => (line, column, message),
-                    Wrong::Cell { line, column, source } => (line, column, source.field().to_owned()),
+                let (of, in_it, what) = match people(text.replace('|', end).as_bytes()).expect_err(text) {
+                    CountsError::Table(TableError { line, column, message }) => (line, column, message),
+                    CountsError::Cell { line, column, source } => (line, column, source.field().to_owned()),
                 };
                 assert_eq!((of, in_it, what.as_str()), (line, column, field), "{text}");
             }
