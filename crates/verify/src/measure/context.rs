@@ -20,7 +20,6 @@ use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::exact_landings::ExactLandings;
 use crate::measure::families::hard_tosses;
-use crate::measure::long_flights::LongFlights;
 use crate::measure::planner::{Planned, random_scenes};
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
@@ -60,8 +59,6 @@ pub struct Context {
     pub(crate) hard: Shared<Survey>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
-    /// The long flights.
-    pub long_flights: Shared<LongFlights>,
     /// The answers to the launches chosen to break solvers.
     pub(crate) search: Shared<Vec<Answers>>,
     /// The sweep of tolerances and steps.
@@ -101,9 +98,8 @@ impl<T> Shared<T> {
 
 impl Serialize for Context {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut records = to.serialize_struct("Context", 5)?;
+        let mut records = to.serialize_struct("Context", 4)?;
         records.serialize_field("atlas", &self.atlas.found())?;
-        records.serialize_field("long_flights", &self.long_flights.found())?;
         records.serialize_field("sweep", &self.sweep.found())?;
         records.serialize_field("convergence", &self.convergence.found())?;
         records.serialize_field("fig4", &self.fig4.found())?;
@@ -142,7 +138,6 @@ impl Context {
                 Ok(Survey::of(&context.subjects, tosses, Vec::new(), &context.exact))
             }),
             atlas: Shared::by(|context| Atlas::new(&context.registry)),
-            long_flights: Shared::by(|context| LongFlights::new(&context.registry)),
             search: Shared::by(search),
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),

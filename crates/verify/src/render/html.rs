@@ -12,7 +12,7 @@ use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::run::Answer;
 use crate::measure::work_precision::YARDSTICK;
-use crate::render::charts::{Chart, OVERVIEW};
+use crate::render::charts::Chart;
 use crate::render::report::{Cost, ENOUGH, Reached, Verdict};
 use crate::render::{Report, diagnosis};
 
@@ -22,7 +22,7 @@ const STYLE: &str = include_str!("report.css");
 const OPEN: usize = 5;
 
 /// Id, title and caption of every chapter of charts; the files of its charts begin with the id.
-const CHAPTERS: [(&str, &str, &str); 5] = [
+const CHAPTERS: [(&str, &str, &str); 4] = [
     (
         "fig4",
         "The paper's Fig. 4",
@@ -52,7 +52,6 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
       forms are the paper's equations as printed. Below stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
       an error below it cannot be told from an error of the launch.",
     ),
-    ("long-flights", "Long flights", "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s."),
 ];
 
 pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
@@ -69,10 +68,7 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
                 (answer(report))
                 (failures(&report.failing()))
                 (moves(report))
-                div.answers {
-                    (reached(report))
-                    (overview(charts))
-                }
+                (reached(report))
                 @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
                 (families(report))
                 h2 { "Everything in full" }
@@ -179,21 +175,6 @@ fn reached(report: &Report) -> Markup {
                        within " (format!("{ENOUGH:e}")) " rad, among the tolerances and steps that were flown."
                 @if all.iter().any(|one| one.subject.starts_with(YARDSTICK)) {
                     " The lines called " (YARDSTICK) " are the library's quaternion, to compare with, here and in the charts; no row judges it."
-                }
-            }
-        }
-    }
-}
-
-fn overview(charts: &[Chart]) -> Markup {
-    html! {
-        @for chart in charts.iter().filter(|chart| chart.file == OVERVIEW) {
-            section {
-                h2 { "Work against error" }
-                figure {
-                    (PreEscaped(&chart.svg))
-                    figcaption { "The same problem, by time: the further right, the more accurate; the lower, the cheaper. The wide \
-                                  grey line is the front, which no integrator beats." }
                 }
             }
         }
@@ -312,8 +293,7 @@ fn line(row: &Row) -> Markup {
 
 /// A chapter of charts, folded; nothing if it has none.
 fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
-    let charts: Vec<&Chart> =
-        charts.iter().filter(|chart| chart.file.starts_with(id) && chart.file != OVERVIEW).collect();
+    let charts: Vec<&Chart> = charts.iter().filter(|chart| chart.file.starts_with(id)).collect();
     html! {
         @if !charts.is_empty() {
             details id=(id) {

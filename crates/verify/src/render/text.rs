@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::words::{Group, comparison, reserve, unjudged, verdict};
-use super::{Report, diagnosis};
+use super::{Report, diagnosis, standing, words};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -23,8 +23,15 @@ pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
     format!("{:<width$} {:>7.1} s  {:>4} rows  {result}\n", timing.check, timing.t_wall_s, rows.len(), width = width())
 }
 
-/// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
-pub(crate) fn report(report: &Report, verbose: bool) -> String {
+/// The report of a run: what fails and what moved, the verdict, and what it does not speak of.
+pub(crate) fn whole(found: &Report, verbose: bool) -> String {
+    let (moved, left_out) = (words::moves(&found.moves, &found.rows), words::left_out(&found.left_out));
+    let (standing, compared) = (standing::sentences(found), found.baseline.words(&found.moves));
+    format!("{}{moved}{}{left_out}{standing}{compared}\n", report(found, verbose), passing(&found.rows))
+}
+
+/// The rows: one line a check or, with `verbose`, one line a row below its claim.
+fn report(report: &Report, verbose: bool) -> String {
     let mut out = format!("\n{}{}\n", diagnosis::paragraph(report), report.pattern);
     let blocks = Group::checks(&report.rows);
     if !verbose {
@@ -40,7 +47,7 @@ pub(crate) fn report(report: &Report, verbose: bool) -> String {
 }
 
 /// Whether the run passes, and how many rows do.
-pub(crate) fn passing(rows: &[Row]) -> String {
+fn passing(rows: &[Row]) -> String {
     let failing = rows.iter().filter(|row| !row.status.passes()).count();
     let verdict = if failing == 0 { "PASS" } else { "FAIL" };
     format!("\n{verdict}: {} of {} rows pass{}\n", rows.len() - failing, rows.len(), remarks(rows))

@@ -158,8 +158,11 @@ fn report() -> Value {
     let stepper = stepper.with_schemes(&[Scheme::DOPRI5, Scheme::RK4]);
     let registry = [ExactSolver::entry(), stepper, SolverEntry::new("refuses", "", |_| Box::new(Refuses))];
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
-    assert!(context.atlas.get(&context).is_ok() && context.long_flights.get(&context).is_ok());
-    assert!(context.convergence.get(&context).is_ok() && context.sweep.get(&context).is_ok());
+    assert!(
+        context.atlas.get(&context).is_ok()
+            && context.convergence.get(&context).is_ok()
+            && context.sweep.get(&context).is_ok()
+    );
     assert!(context.fig4.get(&context).is_ok());
     let limits = Limits::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("limits");
     let of = |id: &str| -> Vec<Row> {

@@ -9,7 +9,6 @@ use chart::{ChartError, Drawn, Panel, Series};
 use sampling::RunningStep;
 use toss::SolverEntry;
 
-use crate::measure::atlas::expected::Expectation;
 use crate::measure::work_precision::Sweep;
 use crate::render::Report;
 pub(crate) use atlas::matrix;
@@ -28,9 +27,6 @@ pub struct Chart {
     pub caption: Option<String>,
 }
 
-/// The file of the chart with which a report opens.
-pub(super) const OVERVIEW: &str = "work-precision.svg";
-
 /// Draws speed against accuracy on the problem `problem` of the record of the day `date`, as SVG. Solvers have the colours
 /// of `registry`.
 ///
@@ -48,13 +44,8 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     let palette = Palette::new(&records.registry);
     let mut charts = Vec::new();
     if let Some(all) = records.atlas.found() {
-        let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Expectation::Answer);
-        charts.push(chart("atlas-matrix.svg", matrix(&all.subjects(), worst)?));
         charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
         charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
-    }
-    if let Some(flights) = records.long_flights.found() {
-        charts.push(chart("long-flights.svg", errors::long_flights(flights, &palette)?));
     }
     if let Some(steps) = records.fig4.found() {
         let columns: Vec<[f64; 5]> = steps.iter().filter_map(RunningStep::columns).collect();
@@ -63,8 +54,7 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     if let Some(all) = records.convergence.found().filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", errors::order(all, &palette)?));
     }
-    if let (Some(sweep), Some(problem)) = (records.sweep.found(), report.ordinary()) {
-        charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
+    if let Some(sweep) = records.sweep.found() {
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
