@@ -11,7 +11,6 @@ use toss::{Formulation, StepControl, Stepping};
 
 use super::program::Foreign;
 use crate::measure::atlas;
-use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
 use crate::measure::reference::Reference;
 use crate::measure::run::Run;
@@ -219,7 +218,7 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());
-    let mut table = text::runs(&runs, Conditioning::new(toss)?);
+    let mut table = text::runs(&runs);
     if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
         table += &diagnosis::example(&asked.example());
     }

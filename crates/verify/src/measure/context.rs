@@ -7,7 +7,6 @@ use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
 use dynamics::Toss;
-use sampling::RunningStep;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use toss::SolverEntry;
@@ -24,7 +23,6 @@ use crate::measure::planner::{Planned, random_scenes};
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::{Survey, random_launches};
-use crate::measure::tables::fig4;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
 use crate::shown::shown;
@@ -66,8 +64,6 @@ pub struct Context {
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     pub(crate) scenes: Shared<Vec<Planned>>,
-    /// The running shares of heads in Fig. 4's space.
-    pub fig4: Shared<Vec<RunningStep>>,
 }
 
 /// A result that is computed when it is first asked for.
@@ -98,11 +94,10 @@ impl<T> Shared<T> {
 
 impl Serialize for Context {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut records = to.serialize_struct("Context", 4)?;
+        let mut records = to.serialize_struct("Context", 3)?;
         records.serialize_field("atlas", &self.atlas.found())?;
         records.serialize_field("sweep", &self.sweep.found())?;
         records.serialize_field("convergence", &self.convergence.found())?;
-        records.serialize_field("fig4", &self.fig4.found())?;
         records.end()
     }
 }
@@ -142,7 +137,6 @@ impl Context {
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),
             scenes: Shared::by(random_scenes),
-            fig4: Shared::by(|_| fig4()),
         })
     }
 }

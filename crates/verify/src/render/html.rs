@@ -22,14 +22,7 @@ const STYLE: &str = include_str!("report.css");
 const OPEN: usize = 5;
 
 /// Id, title and caption of every chapter of charts; the files of its charts begin with the id.
-const CHAPTERS: [(&str, &str, &str); 4] = [
-    (
-        "fig4",
-        "The paper's Fig. 4",
-        "Probability against the number of launches: a grid (A), in the order of its axes, and \
-      random launches (B). B converges like one over the root of n; A drifts until its last axis is complete. Both end at the \
-      paper's 66 %. The space is reconstructed, since the paper names none.",
-    ),
+const CHAPTERS: [(&str, &str, &str); 2] = [
     (
         "work-precision",
         "Speed against accuracy",
@@ -44,13 +37,6 @@ const CHAPTERS: [(&str, &str, &str); 4] = [
         "With fixed steps the error falls like a power of the step. The fitted power stands \
       beside that of the theory. For DOP853 only one halving of the step lies between steps that are too large for the power law \
       and errors that are rounding alone.",
-    ),
-    (
-        "atlas",
-        "Where methods fail",
-        "The worst answer of every solver, scheme and formulation near each hazard. The raw \
-      forms are the paper's equations as printed. Below stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
-      an error below it cannot be told from an error of the launch.",
     ),
 ];
 

@@ -11,7 +11,6 @@ use super::{Report, diagnosis, standing, words};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
-use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::run::Run;
 use crate::measure::trial::Measurement;
 use crate::{CHECKS, Check};
@@ -124,8 +123,8 @@ fn line(row: &Row, width: usize) -> String {
     format!("{:<width$}  {comparison:<28}  {reserve:<18}  {cases:>7} cases{unjudged}  {verdict}", row.subject)
 }
 
-/// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
-pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
+/// The answer, errors and work of each run.
+pub(crate) fn runs(all: &[Run]) -> String {
     let width = all.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
     let line = |run: &Run| {
         // A program tells none.
@@ -133,11 +132,7 @@ pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
         let (answer, failure) = (run.answer.name(), run.failure.as_deref().unwrap_or_default());
         format!("{:<width$}  {answer:<14}  {}  {calls:>8} calls  {failure}", run.subject, run.words())
     };
-    let rounding = conditioning.map_or_else(String::new, |conditioning| {
-        let (attitude, cos_tilt) = (conditioning.rounding(), f64::EPSILON * conditioning.cos_tilt);
-        format!("one rounding of the launch moves cos θ by {cos_tilt:.1e}, the attitude by {attitude:.1e} rad\n")
-    });
-    all.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
+    all.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect()
 }
 
 /// What a check of the library measures on the toss, or why it failed.

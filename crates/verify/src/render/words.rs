@@ -146,7 +146,7 @@ impl<'a> Group<'a> {
 const FAMILIES: [(&str, &[&str]); 15] = [
     ("launches chosen to break solvers", &["adversarial-", "hostile-"]),
     ("places where methods fail", &["atlas-", "vertical-frame-"]),
-    ("batches", &["batch-", "counts-one-by-one"]),
+    ("batches", &["batch-"]),
     ("bodies", &["bodies-", "hard-", "rigid-"]),
     ("proofs", &["certified-", "integrated-"]),
     ("random launches", &["claims-", "random-"]),

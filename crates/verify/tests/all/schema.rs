@@ -163,7 +163,6 @@ fn report() -> Value {
             && context.convergence.get(&context).is_ok()
             && context.sweep.get(&context).is_ok()
     );
-    assert!(context.fig4.get(&context).is_ok());
     let limits = Limits::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("limits");
     let of = |id: &str| -> Vec<Row> {
         let check: &Check = CHECKS.iter().find(|check| check.id == id).expect("a check");

@@ -5,8 +5,7 @@ mod errors;
 mod palette;
 mod work;
 
-use chart::{ChartError, Drawn, Panel, Series};
-use sampling::RunningStep;
+use chart::ChartError;
 use toss::SolverEntry;
 
 use crate::measure::work_precision::Sweep;
@@ -43,14 +42,6 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     let records = &report.context;
     let palette = Palette::new(&records.registry);
     let mut charts = Vec::new();
-    if let Some(all) = records.atlas.found() {
-        charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
-        charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
-    }
-    if let Some(steps) = records.fig4.found() {
-        let columns: Vec<[f64; 5]> = steps.iter().filter_map(RunningStep::columns).collect();
-        charts.push(chart("fig4.svg", chart::running("", &columns)?));
-    }
     if let Some(all) = records.convergence.found().filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", errors::order(all, &palette)?));
     }
@@ -68,17 +59,4 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
 
 fn chart(file: &str, svg: String) -> Chart {
     Chart { file: file.to_owned(), svg, caption: None }
-}
-
-/// Columns of a legend below panels.
-const COLUMNS: i32 = 4;
-
-/// Height of the legend of so many lines and of the remark on failures (pixels).
-fn legend_height(lines: usize) -> u32 {
-    let entries = i32::try_from(lines).unwrap_or(i32::MAX - 4) + 1;
-    38 + 44 * (entries + COLUMNS - 1).div_euclid(COLUMNS).unsigned_abs()
-}
-
-fn legend(panel: &Panel<'_>, lines: &[Series]) -> Drawn {
-    chart::legend(panel, lines, COLUMNS, 480)
 }
