@@ -151,10 +151,7 @@ const FAMILIES: [(&str, &[&str]); 15] = [
     ("proofs", &["certified-", "integrated-"]),
     ("random launches", &["claims-", "random-"]),
     ("reference motions", &["reference-"]),
-    (
-        "sampling",
-        &["clopper-pearson-", "enclosure", "exact-speed-", "fig4-", "grid-", "interval-", "long-flight-", "sampling-"],
-    ),
+    ("sampling", &["enclosure", "exact-speed-", "fig4-", "grid-", "interval-", "long-flight-", "sampling-"]),
     ("order and tolerance", &["convergence-order", "tolerance-"]),
     ("conserved quantities", &["invariant-"]),
     ("published figures", &["catalogue-", "cheated-", "first-flip", "probability-", "tails-in-flight"]),

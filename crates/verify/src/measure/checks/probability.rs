@@ -72,10 +72,6 @@ pub(super) const CHECKS: &[Check] = &[
         "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
          reference number, is at most the limit.",
     ),
-    Check::of_library("clopper-pearson-coverage", Own(exact_coverage)).claims(
-        "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
-         reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
-    ),
 ];
 
 fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -297,34 +293,16 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 const REPLICATES: u64 = 10_000;
 
-/// The number of the replicates for which `holds`, called with a seed and the probability, is true.
-fn covered(context: &Context, holds: impl Fn(u64, f64) -> anyhow::Result<bool> + Sync) -> anyhow::Result<u64> {
-    let probability = probability(context)?;
-    let is_covered = |seed| holds(seed, probability).map(u64::from);
-    (1..=REPLICATES).into_par_iter().map(is_covered).sum()
-}
-
 /// The number of intervals over the box of four coordinates, and of those that contain its probability.
 pub(super) fn in_the_box_of_four(
     context: &Context,
     plan: impl Fn(u64, u64) -> Plan + Sync,
 ) -> anyhow::Result<[u64; 2]> {
-    let space = four_coordinates()?;
-    let covered = covered(context, |seed, probability| {
+    let (space, probability) = (four_coordinates()?, probability(context)?);
+    let is_covered = |seed| {
         let found = Sampler::exact().estimate(&space, plan(1024, seed))?;
-        Ok(found.interval.is_some_and(|interval| interval.contains(probability)))
-    })?;
+        anyhow::Ok(u64::from(found.interval.is_some_and(|interval| interval.contains(probability))))
+    };
+    let covered = (1..=REPLICATES).into_par_iter().map(is_covered).sum::<anyhow::Result<u64>>()?;
     Ok([REPLICATES, covered])
-}
-
-fn exact_coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let space = four_coordinates()?;
-    let share = covered(context, |seed, probability| {
-        let Estimate { found, .. } = Sampler::exact().estimate(&space, Plan::Random { points: 1000, seed })?;
-        let Found::Counts(counts) = found else { anyhow::bail!("random launches gave a share instead of counts") };
-        Ok(clopper_pearson(counts.heads(), counts.points(), 0.95).contains(probability))
-    })? as f64
-        / REPLICATES as f64;
-    let input = format!("{share} of the intervals from 1000 launches");
-    Ok(vec![Measurement::figure("random", (0.95 - share).max(0.0), REPLICATES, input)])
 }
