@@ -1,12 +1,11 @@
 //! Renders the report as one HTML file that needs no network. It opens with the answer: the verdict, what each solver
-//! reaches at which cost, how solvers answer where methods fail, and one line for each family of checks. Everything else
-//! is folded below.
+//! reaches at which cost, how solvers answer where methods fail, and one line for each check. Everything else is folded
+//! below.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::words::{Group, comparison, left_out, number, replay, reserve, unjudged, verdict};
 use crate::judge::baseline::{Direction, Move};
-use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
@@ -56,9 +55,10 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
                 (moves(report))
                 (reached(report))
                 @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
-                (families(report))
-                h2 { "Everything in full" }
-                @for family in Group::families(&report.rows) { (in_full(&family, report)) }
+                h2 id="checks" { "Checks" }
+                @for block in Group::checks(&report.rows) { (check(&block, report)) }
+                p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a \
+                           limit is judged by the error that it claims." }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
                 (not_measured(report))
             }
@@ -197,49 +197,13 @@ fn matrix(atlas: &Atlas) -> Markup {
     }
 }
 
-fn families(report: &Report) -> Markup {
-    html! {
-        h2 id="checks" { "Families of checks" }
-        table.families {
-            tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
-            @for family in Group::families(&report.rows) {
-                @let worst = family.worst();
-                tr {
-                    th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
-                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows.len()) @if family.failing() > 0 { " fail" } }
-                    td { (reserve(worst).trim_start_matches("reserve ")) }
-                    td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
-                }
-            }
-        }
-        p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a limit \
-                   is judged by the error that it claims." }
-    }
-}
-
 fn mark(failing: usize, judged: usize) -> Markup {
     html! { @if failing > 0 { span.fail { "✗ " } } @else if judged > 0 { span.pass { "✓ " } } @else { span.faint { "– " } } }
 }
 
-fn anchor(family: &str) -> String {
-    family.replace(' ', "-")
-}
-
-fn in_full(family: &Group<'_>, report: &Report) -> Markup {
-    let checks = Group::checks(family.rows.iter().copied());
-    html! {
-        details id=(anchor(family.name)) open[family.failing() > 0] {
-            summary { b { (mark(family.failing(), family.judged())) (family.name) }
-                      span.faint { (checks.len()) " checks, " (family.rows.len()) " rows" } }
-            @for block in &checks {
-                (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
-            }
-        }
-    }
-}
-
-fn check(block: &Group<'_>, timing: Option<&Timing>) -> Markup {
+fn check(block: &Group<'_>, report: &Report) -> Markup {
     let (worst, all) = (block.worst(), block.failing() == 0);
+    let timing = report.checks.iter().find(|timing| timing.check == worst.check);
     html! {
         details.check open[!all] {
             summary {

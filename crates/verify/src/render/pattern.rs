@@ -1,9 +1,8 @@
-//! Says in one paragraph which solvers, schemes and parts of the library the failing rows are about, and which pass,
+//! Says in one paragraph which solvers, schemes and checks of the library the failing rows are about, and which pass,
 //! because that names the place of a fault sooner than any single row.
 
 use std::collections::BTreeSet;
 
-use super::words::family;
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::{Row, Status};
 use crate::measure::check::Judges;
@@ -15,19 +14,20 @@ const LISTED: usize = 6;
 pub(crate) fn of_rows(rows: &[Row]) -> String {
     let items: Vec<Item<'_>> = rows.iter().map(|row| Item::of(row, !row.status.passes())).collect();
     let solvers = Names::of(&items, Some(Judges::Solver), Item::solver);
-    let library = Names::of(&items, Some(Judges::Library), Item::family);
+    let library = Names::of(&items, Some(Judges::Library), Item::check);
+    let of_library = |number: usize| match number {
+        0 => None,
+        1 => Some("1 check of the library".to_owned()),
+        checks => Some(format!("{checks} checks of the library")),
+    };
     if items.iter().any(|item| item.bad) {
-        let passing: Vec<&str> = solvers.good().chain(library.good()).collect();
+        let solvers = solvers.all.difference(&solvers.bad).map(|name| (*name).to_owned());
+        let passing: Vec<String> = solvers.chain(of_library(library.all.len() - library.bad.len())).collect();
         let passing = if passing.is_empty() { String::new() } else { format!(" Passes: {}.", passing.join(", ")) };
         return format!("Fails: {}.{passing}", bad(&items));
     }
-    let parts = match library.all.len() {
-        0 => None,
-        1 => Some("1 part of the library".to_owned()),
-        parts => Some(format!("{parts} parts of the library")),
-    };
     let solvers = (!solvers.all.is_empty()).then(|| list(&solvers.all));
-    let whole = solvers.into_iter().chain(parts).collect::<Vec<_>>().join(" and ");
+    let whole = solvers.into_iter().chain(of_library(library.all.len())).collect::<Vec<_>>().join(" and ");
     let end = if whole.is_empty() { whole } else { format!(": {whole}") };
     let open = rows.iter().filter(|row| row.status == Status::NotJudged).count();
     match rows.len() - open {
@@ -80,11 +80,6 @@ impl<'a> Item<'a> {
     fn formulation(&self) -> Option<&'a str> {
         self.subject.split('/').nth(2)
     }
-
-    /// The part of the library.
-    fn family(&self) -> Option<&'a str> {
-        Some(family(self.check))
-    }
 }
 
 /// What the items of solvers, of the library or (`None`) of the suite have as a name: all of them, and the bad ones.
@@ -99,17 +94,13 @@ impl<'a> Names<'a> {
         Self { all: of().filter_map(name).collect(), bad: of().filter(|item| item.bad).filter_map(name).collect() }
     }
 
-    fn good(&self) -> impl Iterator<Item = &'a str> {
-        self.all.difference(&self.bad).copied()
-    }
-
     /// The bad ones, or `every` if there are no others.
     fn words(&self, every: &str) -> String {
         if self.bad == self.all && self.all.len() > 1 { every.to_owned() } else { list(&self.bad) }
     }
 }
 
-/// What is bad: solvers with their schemes, formulations and checks, parts of the library, and what was not measured.
+/// What is bad: solvers with their schemes, formulations and checks, checks of the library, and what was not measured.
 fn bad(items: &[Item<'_>]) -> String {
     let names = |name| Names::of(items, Some(Judges::Solver), name);
     let (solvers, schemes, checks) = (names(Item::solver), names(Item::scheme), names(Item::check));
@@ -130,10 +121,10 @@ fn bad(items: &[Item<'_>]) -> String {
         let (schemes, formulation) = (after("by", schemes), after("in the formulation", formulation));
         parts.push(format!("{}{schemes}{formulation}, {where_bad}", solvers.words("all solvers")));
     }
-    let library = Names::of(items, Some(Judges::Library), Item::family).bad;
-    parts.extend(library.iter().map(|family| format!("the library's {family}")));
-    let suite = Names::of(items, None, Item::check).bad;
-    parts.extend((!suite.is_empty()).then(|| format!("not measured in time or not at all: {}", list(&suite))));
+    for (judges, what) in [(Some(Judges::Library), "the library, in"), (None, "not measured in time or not at all:")] {
+        let bad = Names::of(items, judges, Item::check).bad;
+        parts.extend((!bad.is_empty()).then(|| format!("{what} {}", list(&bad))));
+    }
     parts.join("; ")
 }
 
