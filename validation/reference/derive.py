@@ -3,7 +3,7 @@
 Everything is computed twice: from the closed form of the motion, and by integrating the equations of motion with
 mpmath's Taylor-series solver. The numbers are printed only if both agree to 30 digits.
 """
-from mpmath import mp, mpf, matrix, sin, cos, sqrt, atan2, acos, asin, pi, odefun, ellipfun, cot
+from mpmath import mp, mpf, matrix, sin, cos, sqrt, atan2, acos, asin, pi, odefun, cot
 
 mp.dps = 50
 

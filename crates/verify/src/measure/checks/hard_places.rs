@@ -1,8 +1,8 @@
 //! The checks near the places where methods fail: what every contestant (a solver with a scheme and a formulation) does there,
-//! compared with what is known of it, and what such a place costs; launches that are chosen to break solvers; and flights
-//! far longer than any toss, also at the finest tolerances, in which rounding adds up. Errors of an integrator grow with the
-//! time of flight, so an error estimate that holds for short flights may fail for long ones. The raw equations of the paper
-//! are meant to fail at hazards, so doing better than known fails the check too.
+//! compared with what is known of it; launches that are chosen to break solvers; and flights far longer than any toss, at
+//! tolerances down to the finest, in which rounding adds up. Errors of an integrator grow with the time of flight, so an
+//! error estimate that holds for short flights may fail for long ones. The raw equations of the paper are meant to fail at
+//! hazards, so doing better than known fails the check too.
 
 use rayon::prelude::*;
 use toss::{Formulation, Scheme, SolveError, SolverEntry};

@@ -1,10 +1,9 @@
 //! The checks of every subject (a solver with its settings) on random launches of coins and on bodies in families each of
-//! which is hard for a method of its own: by the 256-bit reference, by what a free body conserves, by each other and by what
-//! they claim. Random launches show errors between the special cases that other checks choose. Solvers that refuse bodies
+//! which is hard for a method of its own: by the 256-bit reference, by what a free body conserves and by what they claim. Random launches show errors between the special cases that other checks choose. Solvers that refuse bodies
 //! have no rows of them: what they must refuse is in the atlas.
 //!
-//! Of what is conserved (a) to (c) are the checks that the paper itself applies: the length of the angular momentum S, the
-//! kinetic energy, and n·S, where n is the coin's normal.
+//! The paper itself checks (a) the length of the angular momentum S, (b) the kinetic energy, and (c) n·S, where n is the coin's
+//! normal. (a) and (c) follow from (b) and S as a vector.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,5 @@
 //! The checks of numbers from outside the workspace, so that an error which all our code shares shows: landings in
-//! `data/motion.toml`, the test problem DETEST B5, published motions of bodies, the coins of the catalogue, and the paper's
+//! `data/motion.toml`, published motions of bodies, the coins of the catalogue, and the paper's
 //! two tosses, of which the cheated one must land heads and the one of its Fig. 3 tails.
 //!
 //! "Heads with certainty" has two meanings, and both are checked. With the paper's moments the cone angle ψ between
