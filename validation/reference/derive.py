@@ -3,7 +3,7 @@
 Everything is computed twice: from the closed form of the motion, and by integrating the equations of motion with
 mpmath's Taylor-series solver. The numbers are printed only if both agree to 30 digits.
 """
-from mpmath import mp, mpf, matrix, sin, cos, sqrt, atan2, acos, asin, pi, odefun, ellipfun, cot
+from mpmath import mp, mpf, matrix, sin, cos, sqrt, atan2, acos, asin, pi, odefun, cot
 
 mp.dps = 50
 
@@ -115,16 +115,7 @@ def long_flights():
         print(f'[[long_flight]]\ncone_deg = {degrees}.0\nprobability = {show(mpf(1)/2 + asin(cot(angle)**2)/pi)}\n')
 
 
-def detest_b5():
-    """DETEST B5: y1' = y2 y3, y2' = -y1 y3, y3' = -0.51 y1 y2, y(0) = (0, 1, 1), whose solution is sn, cn, dn."""
-    solution = odefun(lambda _, y: [y[1]*y[2], -y[0]*y[2], -mpf("0.51")*y[0]*y[1]], 0, [mpf(0), mpf(1), mpf(1)])(20)
-    elliptic = [ellipfun(kind, 20, m=mpf("0.51")) for kind in ("sn", "cn", "dn")]
-    assert max(abs(a - b) for a, b in zip(solution, elliptic)) < mpf(10)**-30
-    print(f'[detest_b5]\ntime = 20.0\nstate = [{", ".join(show(c) for c in elliptic)}]')
-
-
 if __name__ == "__main__":
     flights()
     flips()
     long_flights()
-    detest_b5()

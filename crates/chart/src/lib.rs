@@ -9,7 +9,7 @@ mod ticks;
 
 pub use frame::{Axis, Frame, centred, frame, pixel};
 pub use labels::{EndLabel, end_labels};
-pub use log_log::{LINE_WIDTH, Marker, Series, legend, log_log};
+pub use log_log::{LINE_WIDTH, Marker, Series, log_log};
 pub use running::running;
 
 use plotters::coord::Shift;

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use crate::frame::{Axis, Frame, frame, pixel};
-use crate::{Drawn, EndLabel, GREY, Panel, TEXT};
+use crate::{Drawn, EndLabel, Panel};
 
 /// Width of a line (pixels), unless it has a reason to differ.
 pub const LINE_WIDTH: u32 = 4;
@@ -94,28 +94,5 @@ fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBCol
         Marker::Triangle => panel.draw(&TriangleMarker::new(at, 9, colour.filled()))?,
         Marker::None => {}
     }
-    Ok(())
-}
-
-/// Draws the names of `series` in rows of `columns`, each `width` pixels wide, and after them what a cross means.
-///
-/// # Errors
-/// As the backend's.
-pub fn legend(panel: &Panel<'_>, series: &[Series], columns: i32, width: i32) -> Drawn {
-    let place = |index: i32| (40 + width * (index % columns), 30 + 44 * (index / columns));
-    let mut last = 0;
-    for (index, line) in (0..).zip(series) {
-        let (x, y) = place(index);
-        let dashes = if line.dashed { vec![(0, 24), (36, 60)] } else { vec![(0, 60)] };
-        for (from, to) in dashes {
-            panel.draw(&PathElement::new([(x + from, y), (x + to, y)], line.colour.stroke_width(4)))?;
-        }
-        draw_marker(panel, line.marker, (x + 30, y), line.colour)?;
-        panel.draw(&Text::new(line.label.clone(), (x + 76, y - 14), TEXT.into_font().color(&line.colour)))?;
-        last = index + 1;
-    }
-    let (x, y) = place(last);
-    panel.draw(&Cross::new((x + 30, y), 9, GREY.stroke_width(4)))?;
-    panel.draw(&Text::new("an error, no answer", (x + 76, y - 14), TEXT.into_font().color(&GREY)))?;
     Ok(())
 }

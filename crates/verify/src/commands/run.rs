@@ -11,19 +11,18 @@ use toss::{Formulation, StepControl, Stepping};
 
 use super::program::Foreign;
 use crate::measure::atlas;
-use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
 use crate::measure::reference::Reference;
 use crate::measure::run::Run;
 use crate::render::report::{PROPOSAL, Report, Verdict};
-use crate::render::{diagnosis, github, junit, standing, text, words};
+use crate::render::{diagnosis, github, junit, text};
 use crate::shown::shown;
 use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
 /// Run the checks: one line a check, and in full what fails
 ///
-/// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
+/// Writes report.html, report.json, junit.xml, summary.md and charts.
 ///
 /// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss is wrong or without an answer; 2 bad usage; 3
 /// accuracy or work is worse than the baseline, though within limits; 4 could not run.
@@ -182,12 +181,7 @@ impl RunArgs {
     }
 
     fn text(&self, report: &Report, out: &Path) -> String {
-        let moved = words::moves(&report.moves, &report.rows);
-        let compared = report.baseline.words(&report.moves);
-        let (table, verdict) = (text::report(report, self.verbose), text::passing(&report.rows));
-        let left_out = words::left_out(&report.left_out);
-        let (standing, written) = (standing::sentences(report), written(report, out));
-        format!("{table}{moved}{verdict}{left_out}{standing}{compared}\n{written}")
+        text::whole(report, self.verbose) + &written(report, out)
     }
 }
 
@@ -224,7 +218,7 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());
-    let mut table = text::runs(&runs, Conditioning::new(toss)?);
+    let mut table = text::runs(&runs);
     if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
         table += &diagnosis::example(&asked.example());
     }

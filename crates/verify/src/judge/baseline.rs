@@ -169,11 +169,6 @@ impl Baseline {
         Ok(COLUMNS.read(text)?.into_iter().filter_map(entry).collect())
     }
 
-    /// The entries by check and subject.
-    pub fn into_entries(self) -> impl Iterator<Item = (String, String, Entry)> {
-        self.entries.into_iter().map(|((check, subject), entry)| (check, subject, entry))
-    }
-
     /// The baseline as CSV, one line per entry.
     ///
     /// # Errors

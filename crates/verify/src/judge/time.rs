@@ -25,10 +25,9 @@ const USUAL: f64 = 5.0;
 
 /// What checks take with `--quick` on one core of 3 GHz (s), by the beginning of their ids, with the shared results
 /// that the first of them computes.
-const USUAL_S: [(&str, f64); 9] = [
+const USUAL_S: [(&str, f64); 8] = [
     ("adversarial-", 6.0),
     ("atlas-", 24.0),
-    ("cross-method-", 6.0),
     ("fig4-", 6.0),
     ("interval-", 6.0),
     ("invariant-", 6.0),

@@ -7,7 +7,6 @@ use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
 use dynamics::Toss;
-use sampling::RunningStep;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use toss::SolverEntry;
@@ -20,12 +19,10 @@ use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::exact_landings::ExactLandings;
 use crate::measure::families::hard_tosses;
-use crate::measure::long_flights::LongFlights;
 use crate::measure::planner::{Planned, random_scenes};
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::{Survey, random_launches};
-use crate::measure::tables::fig4;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
 use crate::shown::shown;
@@ -60,8 +57,6 @@ pub struct Context {
     pub(crate) hard: Shared<Survey>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
-    /// The long flights.
-    pub long_flights: Shared<LongFlights>,
     /// The answers to the launches chosen to break solvers.
     pub(crate) search: Shared<Vec<Answers>>,
     /// The sweep of tolerances and steps.
@@ -69,8 +64,6 @@ pub struct Context {
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     pub(crate) scenes: Shared<Vec<Planned>>,
-    /// The running shares of heads in Fig. 4's space.
-    pub fig4: Shared<Vec<RunningStep>>,
 }
 
 /// A result that is computed when it is first asked for.
@@ -101,12 +94,10 @@ impl<T> Shared<T> {
 
 impl Serialize for Context {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut records = to.serialize_struct("Context", 5)?;
+        let mut records = to.serialize_struct("Context", 3)?;
         records.serialize_field("atlas", &self.atlas.found())?;
-        records.serialize_field("long_flights", &self.long_flights.found())?;
         records.serialize_field("sweep", &self.sweep.found())?;
         records.serialize_field("convergence", &self.convergence.found())?;
-        records.serialize_field("fig4", &self.fig4.found())?;
         records.end()
     }
 }
@@ -142,12 +133,10 @@ impl Context {
                 Ok(Survey::of(&context.subjects, tosses, Vec::new(), &context.exact))
             }),
             atlas: Shared::by(|context| Atlas::new(&context.registry)),
-            long_flights: Shared::by(|context| LongFlights::new(&context.registry)),
             search: Shared::by(search),
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),
             scenes: Shared::by(random_scenes),
-            fig4: Shared::by(|_| fig4()),
         })
     }
 }

@@ -8,7 +8,7 @@
 //! | claims, and how the trials of a subject become one measurement | [`check`], [`checks`], [`trial`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
 //! | tosses: random ones and of last bits, bodies by families, those of an adversary, flights at the finest tolerances | `tosses`, `families`, `adversary`, `hostile` |
-//! | flights of every solver: on random launches, for long times, and near the places where methods fail | [`survey`], `long_flights`, [`atlas`] |
+//! | flights of every solver: on random launches, and near the places where methods fail | [`survey`], [`atlas`] |
 //! | error by step and by work; drift of conserved quantities | `convergence`, [`work_precision`], `drift` |
 //! | launches of every kind, and what a wrong solver most likely does, by its answers to them | `any_launch`, [`diagnosis`] |
 //! | the accuracy of the planner | `planner` |
@@ -28,7 +28,6 @@ pub mod effort;
 pub mod exact_landings;
 mod families;
 mod hostile;
-pub(crate) mod long_flights;
 pub(crate) mod planner;
 pub mod reference;
 pub mod replay;

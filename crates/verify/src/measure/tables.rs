@@ -1,7 +1,6 @@
-//! This file estimates P(heads) of every named space by every sampling method, and the running shares of heads in Fig.
-//! 4's space.
+//! This file estimates P(heads) of every named space by every sampling method.
 
-use sampling::{Estimate, Plan, Rest, RunningStep, Sampler, Scrambled, named_space, named_spaces};
+use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, named_spaces};
 
 /// Number of independent random launches, the paper's method B.
 const RANDOM_LAUNCHES: u64 = 250_000;
@@ -25,10 +24,4 @@ pub fn tables() -> anyhow::Result<Vec<(&'static str, &'static str, Estimate)>> {
         }
     }
     Ok(lines)
-}
-
-/// The running shares of heads in Fig. 4's space, for a check and a chart.
-pub fn fig4() -> anyhow::Result<Vec<RunningStep>> {
-    const STEPS: u64 = 250;
-    Ok(Sampler::exact().running_shares(&named_space("paper-fig4")?, STEPS, SEED)?)
 }

@@ -4,20 +4,17 @@ use std::path::Path;
 
 use super::charts::{self, Chart};
 use super::report::{PROPOSAL, Report};
-use super::{github, html, junit, metrics};
+use super::{github, html, junit};
 use crate::files;
 
 impl Report {
-    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
-    /// `folder`.
+    /// Writes report.html, report.json, junit.xml, summary.md, charts and, if there are any, proposed limits into `folder`.
     pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
         let charts = charts::charts(self)?;
         for (file, text) in [
             ("report.json", self.json()?),
             ("junit.xml", junit::xml(self)?),
             ("summary.md", github::summary(self)),
-            ("metrics.json", metrics::bencher(self)?),
-            ("github-action-benchmark.json", metrics::smaller_is_better(self)?),
             ("report.html", html::page(self, &charts)),
         ] {
             files::write(&folder.join(file), &text)?;

@@ -1,18 +1,17 @@
 //! Renders the report as one HTML file that needs no network. It opens with the answer: the verdict, what each solver
-//! reaches at which cost, how solvers answer where methods fail, and one line for each family of checks. Everything else
-//! is folded below.
+//! reaches at which cost, how solvers answer where methods fail, and one line for each check. Everything else is folded
+//! below.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::words::{Group, comparison, left_out, number, replay, reserve, unjudged, verdict};
 use crate::judge::baseline::{Direction, Move};
-use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::run::Answer;
 use crate::measure::work_precision::YARDSTICK;
-use crate::render::charts::{Chart, OVERVIEW};
+use crate::render::charts::Chart;
 use crate::render::report::{Cost, ENOUGH, Reached, Verdict};
 use crate::render::{Report, diagnosis};
 
@@ -22,14 +21,7 @@ const STYLE: &str = include_str!("report.css");
 const OPEN: usize = 5;
 
 /// Id, title and caption of every chapter of charts; the files of its charts begin with the id.
-const CHAPTERS: [(&str, &str, &str); 5] = [
-    (
-        "fig4",
-        "The paper's Fig. 4",
-        "Probability against the number of launches: a grid (A), in the order of its axes, and \
-      random launches (B). B converges like one over the root of n; A drifts until its last axis is complete. Both end at the \
-      paper's 66 %. The space is reconstructed, since the paper names none.",
-    ),
+const CHAPTERS: [(&str, &str, &str); 2] = [
     (
         "work-precision",
         "Speed against accuracy",
@@ -45,14 +37,6 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
       beside that of the theory. For DOP853 only one halving of the step lies between steps that are too large for the power law \
       and errors that are rounding alone.",
     ),
-    (
-        "atlas",
-        "Where methods fail",
-        "The worst answer of every solver, scheme and formulation near each hazard. The raw \
-      forms are the paper's equations as printed. Below stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
-      an error below it cannot be told from an error of the launch.",
-    ),
-    ("long-flights", "Long flights", "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s."),
 ];
 
 pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
@@ -69,14 +53,12 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
                 (answer(report))
                 (failures(&report.failing()))
                 (moves(report))
-                div.answers {
-                    (reached(report))
-                    (overview(charts))
-                }
+                (reached(report))
                 @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
-                (families(report))
-                h2 { "Everything in full" }
-                @for family in Group::families(&report.rows) { (in_full(&family, report)) }
+                h2 id="checks" { "Checks" }
+                @for block in Group::checks(&report.rows) { (check(&block, report)) }
+                p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a \
+                           limit is judged by the error that it claims." }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
                 (not_measured(report))
             }
@@ -185,21 +167,6 @@ fn reached(report: &Report) -> Markup {
     }
 }
 
-fn overview(charts: &[Chart]) -> Markup {
-    html! {
-        @for chart in charts.iter().filter(|chart| chart.file == OVERVIEW) {
-            section {
-                h2 { "Work against error" }
-                figure {
-                    (PreEscaped(&chart.svg))
-                    figcaption { "The same problem, by time: the further right, the more accurate; the lower, the cheaper. The wide \
-                                  grey line is the front, which no integrator beats." }
-                }
-            }
-        }
-    }
-}
-
 /// How solvers answer near the places where methods fail.
 fn matrix(atlas: &Atlas) -> Markup {
     let cell = |subject: &str, hazard: &str| {
@@ -230,49 +197,13 @@ fn matrix(atlas: &Atlas) -> Markup {
     }
 }
 
-fn families(report: &Report) -> Markup {
-    html! {
-        h2 id="checks" { "Families of checks" }
-        table.families {
-            tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
-            @for family in Group::families(&report.rows) {
-                @let worst = family.worst();
-                tr {
-                    th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
-                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows.len()) @if family.failing() > 0 { " fail" } }
-                    td { (reserve(worst).trim_start_matches("reserve ")) }
-                    td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
-                }
-            }
-        }
-        p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a limit \
-                   is judged by the error that it claims." }
-    }
-}
-
 fn mark(failing: usize, judged: usize) -> Markup {
     html! { @if failing > 0 { span.fail { "✗ " } } @else if judged > 0 { span.pass { "✓ " } } @else { span.faint { "– " } } }
 }
 
-fn anchor(family: &str) -> String {
-    family.replace(' ', "-")
-}
-
-fn in_full(family: &Group<'_>, report: &Report) -> Markup {
-    let checks = Group::checks(family.rows.iter().copied());
-    html! {
-        details id=(anchor(family.name)) open[family.failing() > 0] {
-            summary { b { (mark(family.failing(), family.judged())) (family.name) }
-                      span.faint { (checks.len()) " checks, " (family.rows.len()) " rows" } }
-            @for block in &checks {
-                (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
-            }
-        }
-    }
-}
-
-fn check(block: &Group<'_>, timing: Option<&Timing>) -> Markup {
+fn check(block: &Group<'_>, report: &Report) -> Markup {
     let (worst, all) = (block.worst(), block.failing() == 0);
+    let timing = report.checks.iter().find(|timing| timing.check == worst.check);
     html! {
         details.check open[!all] {
             summary {
@@ -312,8 +243,7 @@ fn line(row: &Row) -> Markup {
 
 /// A chapter of charts, folded; nothing if it has none.
 fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
-    let charts: Vec<&Chart> =
-        charts.iter().filter(|chart| chart.file.starts_with(id) && chart.file != OVERVIEW).collect();
+    let charts: Vec<&Chart> = charts.iter().filter(|chart| chart.file.starts_with(id)).collect();
     html! {
         @if !charts.is_empty() {
             details id=(id) {

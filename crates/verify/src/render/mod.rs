@@ -1,4 +1,4 @@
-//! Renders one set of rows as text, HTML, JSON, JUnit, annotations of GitHub, metrics and charts. Nothing is measured
+//! Renders one set of rows as text, HTML, JSON, JUnit, annotations of GitHub and charts. Nothing is measured
 //! or judged here.
 
 pub mod charts;
@@ -7,7 +7,6 @@ mod folder;
 pub(crate) mod github;
 pub(crate) mod html;
 pub(crate) mod junit;
-pub(crate) mod metrics;
 pub(crate) mod pattern;
 pub mod report;
 pub(crate) mod standing;

@@ -9,7 +9,7 @@ use toss::planner::Nanoseconds;
 use super::pattern;
 use super::words::{comparison, reserve, worst_first};
 use crate::host::Host;
-use crate::judge::baseline::{Baseline, Direction, Entry, Move};
+use crate::judge::baseline::{Baseline, Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{LeftOut, Row, limits};
 use crate::measure::context::Context;
@@ -19,7 +19,7 @@ use crate::measure::work_precision::Sample;
 use crate::process::Tally;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 9;
+const SCHEMA: u32 = 10;
 
 /// Name of the file with proposed limits, beside the reports.
 pub(crate) const PROPOSAL: &str = "limits.proposed.toml";
@@ -199,13 +199,6 @@ impl Report {
     /// The report as JSON.
     pub fn json(&self) -> anyhow::Result<String> {
         Ok(serde_json::to_string_pretty(self)?)
-    }
-
-    /// The largest deviation of each row, and the error and the calls of each problem of speed and accuracy, by check and subject.
-    pub(super) fn metrics(&self) -> impl Iterator<Item = (String, String, Entry)> {
-        let of_row =
-            |row: &Row| Some((row.check.clone(), row.subject.clone(), Entry { error: row.largest?, calls: None }));
-        self.rows.iter().filter_map(of_row).chain(Baseline::of(&[], self.context.sweep.found()).into_entries())
     }
 
     /// The verdict in one sentence: how many rows pass, or which of them fails by most.

@@ -7,11 +7,10 @@
 use std::fmt::Write;
 
 use super::words::{Group, comparison, reserve, unjudged, verdict};
-use super::{Report, diagnosis};
+use super::{Report, diagnosis, standing, words};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
-use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::run::Run;
 use crate::measure::trial::Measurement;
 use crate::{CHECKS, Check};
@@ -23,8 +22,15 @@ pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
     format!("{:<width$} {:>7.1} s  {:>4} rows  {result}\n", timing.check, timing.t_wall_s, rows.len(), width = width())
 }
 
-/// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
-pub(crate) fn report(report: &Report, verbose: bool) -> String {
+/// The report of a run: what fails and what moved, the verdict, and what it does not speak of.
+pub(crate) fn whole(found: &Report, verbose: bool) -> String {
+    let (moved, left_out) = (words::moves(&found.moves, &found.rows), words::left_out(&found.left_out));
+    let (standing, compared) = (standing::sentences(found), found.baseline.words(&found.moves));
+    format!("{}{moved}{}{left_out}{standing}{compared}\n", report(found, verbose), passing(&found.rows))
+}
+
+/// The rows: one line a check or, with `verbose`, one line a row below its claim.
+fn report(report: &Report, verbose: bool) -> String {
     let mut out = format!("\n{}{}\n", diagnosis::paragraph(report), report.pattern);
     let blocks = Group::checks(&report.rows);
     if !verbose {
@@ -40,7 +46,7 @@ pub(crate) fn report(report: &Report, verbose: bool) -> String {
 }
 
 /// Whether the run passes, and how many rows do.
-pub(crate) fn passing(rows: &[Row]) -> String {
+fn passing(rows: &[Row]) -> String {
     let failing = rows.iter().filter(|row| !row.status.passes()).count();
     let verdict = if failing == 0 { "PASS" } else { "FAIL" };
     format!("\n{verdict}: {} of {} rows pass{}\n", rows.len() - failing, rows.len(), remarks(rows))
@@ -117,8 +123,8 @@ fn line(row: &Row, width: usize) -> String {
     format!("{:<width$}  {comparison:<28}  {reserve:<18}  {cases:>7} cases{unjudged}  {verdict}", row.subject)
 }
 
-/// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
-pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
+/// The answer, errors and work of each run.
+pub(crate) fn runs(all: &[Run]) -> String {
     let width = all.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
     let line = |run: &Run| {
         // A program tells none.
@@ -126,11 +132,7 @@ pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
         let (answer, failure) = (run.answer.name(), run.failure.as_deref().unwrap_or_default());
         format!("{:<width$}  {answer:<14}  {}  {calls:>8} calls  {failure}", run.subject, run.words())
     };
-    let rounding = conditioning.map_or_else(String::new, |conditioning| {
-        let (attitude, cos_tilt) = (conditioning.rounding(), f64::EPSILON * conditioning.cos_tilt);
-        format!("one rounding of the launch moves cos θ by {cos_tilt:.1e}, the attitude by {attitude:.1e} rad\n")
-    });
-    all.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
+    all.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect()
 }
 
 /// What a check of the library measures on the toss, or why it failed.

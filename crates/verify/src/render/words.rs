@@ -1,5 +1,5 @@
 //! Puts rows into words and into order, so that every rendering says the same about them: the numbers of a row, the rows
-//! of a check, the checks of a family, what moved against the baseline, and the checks that gave no row.
+//! of a check, what moved against the baseline, and the checks that gave no row.
 //!
 //! The *reserve* of a row is its limit divided by what was measured.
 
@@ -93,9 +93,8 @@ pub(super) fn worst_first(a: &Row, b: &Row) -> Ordering {
     a.status.passes().cmp(&b.status.passes()).then(b.part().total_cmp(&a.part()))
 }
 
-/// The rows of one check or of one family of checks, the worst first.
+/// The rows of one check, the worst first.
 pub(super) struct Group<'a> {
-    pub(super) name: &'a str,
     /// The rows; there is at least one.
     pub(super) rows: Vec<&'a Row>,
 }
@@ -103,20 +102,11 @@ pub(super) struct Group<'a> {
 impl<'a> Group<'a> {
     /// The checks of `rows`, the worst first.
     pub(super) fn checks(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Self> {
-        Self::by(rows, |row| &row.check)
-    }
-
-    /// The families of `rows`, the worst first.
-    pub(super) fn families(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Self> {
-        Self::by(rows, |row| family(&row.check))
-    }
-
-    fn by(rows: impl IntoIterator<Item = &'a Row>, name: fn(&Row) -> &str) -> Vec<Self> {
         let mut groups: Vec<Self> = Vec::new();
         for row in rows {
-            match groups.iter_mut().find(|group| group.name == name(row)) {
+            match groups.iter_mut().find(|group| group.worst().check == row.check) {
                 Some(group) => group.rows.push(row),
-                None => groups.push(Self { name: name(row), rows: vec![row] }),
+                None => groups.push(Self { rows: vec![row] }),
             }
         }
         for group in &mut groups {
@@ -139,34 +129,6 @@ impl<'a> Group<'a> {
     pub(super) fn judged(&self) -> usize {
         self.rows.iter().filter(|row| row.status != Status::NotJudged).count()
     }
-}
-
-/// The families of checks with how the ids of their checks begin: what the rows of the library are part of, and what those of
-/// solvers are measured on.
-const FAMILIES: [(&str, &[&str]); 17] = [
-    ("launches chosen to break solvers", &["adversarial-", "hostile-"]),
-    ("places where methods fail", &["atlas-", "vertical-frame-", "work-by-tilt", "work-through-"]),
-    ("batches", &["batch-", "counts-one-by-one"]),
-    ("bodies", &["bodies-", "hard-", "rigid-"]),
-    ("proofs", &["certified-", "integrated-"]),
-    ("random launches", &["claims-", "cross-method-", "random-"]),
-    ("reference motions", &["reference-"]),
-    ("sampling", &["clopper-pearson-", "enclosure", "exact-speed-", "fig4-", "grid-", "interval-", "sampling-"]),
-    ("order and tolerance", &["convergence-order", "tolerance-"]),
-    ("Runge-Kutta schemes", &["detest-"]),
-    ("conserved quantities", &["invariant-"]),
-    ("published figures", &["catalogue-", "cheated-", "first-flip", "isotropic-", "probability-", "tails-in-flight"]),
-    ("last bits of the exact motion", &["cos-tilt-terms", "last-bit-", "mean-cos-tilt-"]),
-    ("long flights", &["long-flight-"]),
-    ("planner", &["plan-"]),
-    ("derivatives and margins", &["sensitivity"]),
-    ("speed against accuracy", &["work-precision"]),
-];
-
-/// The family of `check`; the check itself if it belongs to none of the known ones.
-pub(super) fn family(check: &str) -> &str {
-    let found = FAMILIES.iter().find(|(_, starts)| starts.iter().any(|start| check.starts_with(start)));
-    found.map_or(check, |(family, _)| family)
 }
 
 /// One line per entry that moved, the worse ones first and with the command that repeats their row; empty if nothing did.
@@ -273,19 +235,9 @@ mod tests {
             row("over nothing", "a", 1.0, 0.0),
         ];
         let checks = Group::checks(&rows);
-        let order: Vec<&str> = checks.iter().map(|check| check.name).collect();
+        let order: Vec<&str> = checks.iter().map(|check| &*check.worst().check).collect();
         assert_eq!(order, ["over nothing", "over", "near", "far", "nothing"]);
         assert_eq!(checks[1].worst().subject, "b");
         assert_eq!(checks[1].failing(), 1);
-    }
-
-    #[test]
-    fn every_family_is_that_of_a_check() {
-        for (family, start) in
-            FAMILIES.iter().flat_map(|(family, starts)| starts.iter().map(move |start| (family, start)))
-        {
-            let known = crate::CHECKS.iter().any(|check| check.id.starts_with(start));
-            assert!(known, "no check begins with {start}, of {family}");
-        }
     }
 }

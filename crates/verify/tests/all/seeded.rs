@@ -76,15 +76,10 @@ static MEASURED: LazyLock<Vec<(&'static Check, Vec<Measurement>)>> = LazyLock::n
     checks.map(|check| (check, check.measure(&context).expect("rows, whatever happens"))).collect()
 });
 
-/// The rows of what `is_asked` for by its subject, judged with `limits`.
-fn judged(limits: &Limits, is_asked: impl Fn(&str) -> bool) -> Vec<Row> {
-    let judged = MEASURED.iter().flat_map(|(check, measured)| judge(check, measured.clone(), limits));
-    judged.filter(|row| is_asked(&row.subject)).collect()
-}
-
-/// The rows of the solver called `name`, without its comparisons with others.
+/// The rows of the solver called `name`, judged with `limits`.
 fn rows(name: &str, limits: &Limits) -> Vec<Row> {
-    judged(limits, |subject| subject.split('/').next() == Some(name))
+    let judged = MEASURED.iter().flat_map(|(check, measured)| judge(check, measured.clone(), limits));
+    judged.filter(|row| row.subject.split('/').next() == Some(name)).collect()
 }
 
 /// The ids of the checks that `name` fails, judged with `limits`.
@@ -105,18 +100,13 @@ fn each_seeded_fault_is_caught_by_the_checks_that_name_its_place() {
         missed.extend(checks.iter().filter(|check| !failing.iter().any(|id| id == *check)).map(|check| (name, check)));
     }
     assert!(missed.is_empty(), "not caught: {missed:?}");
-    // Beside the solver itself, it fails its comparison with the exact motion, and no row of the library.
-    let compared = judged(&no_limits(), |subject| subject.contains("lost-half"));
-    let failing: Vec<&Row> = compared.iter().filter(|row| !row.status.passes()).collect();
-    assert!(failing.iter().any(|row| row.check == "cross-method-attitude"), "{failing:?}");
-    assert!(failing.iter().all(|row| row.judges == Some(Judges::Solver)), "{failing:?}");
 }
 
 #[test]
 fn solvers_without_a_fault_pass_by_their_claims() {
     for name in ["honest", "rough", "stepper"] {
         let rows = rows(name, &no_limits());
-        assert!(rows.len() >= 18, "{name}: {} rows", rows.len());
+        assert!(rows.len() >= 15, "{name}: {} rows", rows.len());
         for row in &rows {
             assert!(matches!(row.status, Status::PassByClaim | Status::NotJudged), "{name}: {row:?}");
         }
@@ -165,8 +155,7 @@ fn panics_and_nan_become_failing_rows_that_say_why() {
         ("panics", "panicked: out of order"),
         ("unmade", "making it panicked"),
     ] {
-        let mut rows = rows(name, &no_limits());
-        rows.extend(judged(&no_limits(), |subject| subject.ends_with(&format!(" ~ {name}"))));
+        let rows = rows(name, &no_limits());
         let row = rows.iter().find(|row| row.check == "random-cos-tilt").expect("a row");
         assert_eq!(row.status, Status::FailByClaim, "{name}");
         assert!(row.failure.as_ref().is_some_and(|failure| failure.contains(why)), "{name}: {row:?}");

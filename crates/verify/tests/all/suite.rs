@@ -39,7 +39,7 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes()
         assert!(run.contains(&check), "{check}");
     }
     let left_out = |check: &str| verified.left_out.iter().any(|left_out| left_out.check == check);
-    assert!(left_out("batch-cos-tilt") && left_out("cross-method-attitude"), "{:?}", verified.left_out);
+    assert!(left_out("batch-cos-tilt"), "{:?}", verified.left_out);
     assert!(CHECKS.iter().all(|check| run.contains(&check.id) || left_out(check.id)));
 
     let proposed = verified.proposed_limits().expect("no row has a limit");
@@ -49,7 +49,7 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes()
     let needs_none = |row: &Row| row.measured == Some(0.0) || row.limit == ceiling(row);
     let by_limits = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose) || needs_none(row);
     assert!(judged.rows.iter().all(by_limits), "{:#?}", judged.rows);
-    assert!(judged.rows.iter().filter(|row| !needs_none(row)).count() > 10);
+    assert!(judged.rows.iter().filter(|row| !needs_none(row)).count() > 6);
     assert_eq!(judged.proposed_limits(), None);
 
     suite.accept(&mut verified).unwrap();
@@ -76,7 +76,7 @@ fn a_misspelt_limit_and_an_unknown_check_are_found() {
     assert_eq!(verified.exit_code(), 1);
     let error = of_one_solver().only("random").run().err().expect("an error").to_string();
     assert!(error.starts_with("no such check: 'random'; known: reference-cos-tilt, "), "{error}");
-    let error = of_one_solver().only("detest-b5").run().unwrap().verdict();
+    let error = of_one_solver().only("catalogue-moments").run().unwrap().verdict();
     assert_eq!(error, Verdict::Pass, "a check of the library is run if it is asked for by name");
 }
 

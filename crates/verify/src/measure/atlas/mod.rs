@@ -5,7 +5,6 @@
 //! A contestant is a solver with a scheme and a formulation, at the library's default tolerance or step. The raw
 //! formulations are the paper's equations as printed and are expected to fail.
 
-pub mod conditioning;
 pub mod expected;
 pub mod hazards;
 
@@ -17,7 +16,6 @@ use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::measure::subject::{Subject, by_scheme, usual};
-use conditioning::Conditioning;
 use hazards::{HAZARDS, Hazard};
 
 /// One contestant at one distance from one hazard.
@@ -27,8 +25,6 @@ pub struct Spot {
     pub hazard: &'static str,
     /// The distance from it.
     pub distance: f64,
-    /// How sensitive the landing is to a relative change of the launch; null where the phase is too large.
-    pub conditioning: Option<Conditioning>,
     /// The contestant's answer with its errors.
     #[serde(flatten)]
     pub run: Run,
@@ -104,18 +100,16 @@ struct Place {
     distance: f64,
     toss: Toss,
     exact: Reference,
-    conditioning: Option<Conditioning>,
 }
 
 impl Place {
     fn new(hazard: &Hazard, distance: f64) -> anyhow::Result<Self> {
         let toss = (hazard.toss)(distance)?;
-        let (exact, conditioning) = (Reference::of(&toss)?, Conditioning::new(&toss)?);
-        Ok(Self { hazard: hazard.id, distance, toss, exact, conditioning })
+        Ok(Self { hazard: hazard.id, distance, toss, exact: Reference::of(&toss)? })
     }
 
     fn flown(&self, subject: &Subject) -> Spot {
-        let Self { hazard, distance, conditioning, .. } = *self;
-        Spot { hazard, distance, conditioning, run: Run::new(subject, &self.toss, &self.exact) }
+        let Self { hazard, distance, .. } = *self;
+        Spot { hazard, distance, run: Run::new(subject, &self.toss, &self.exact) }
     }
 }

@@ -8,15 +8,14 @@
 
 use dynamics::Toss;
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
-use exact::{ExactMotion, TiltTerms, certify, compensated_cos_tilt};
+use exact::{ExactMotion, TiltTerms, certify};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use toss::{
     Attitude, Batch, CoinMotion, CoinToss, Error, Launch, Outcome, Sensitivity, SimdLevel, SolveError, TimeOfFlight,
 };
 
-use crate::measure::case::is_horizontal;
 use crate::measure::check::Basis::CrossMethod;
-use crate::measure::check::Fold::{Count, Largest, Mean};
+use crate::measure::check::Fold::{Count, Largest};
 use crate::measure::check::Measure::Tosses;
 use crate::measure::check::{Check, Set};
 use crate::measure::context::Context;
@@ -68,14 +67,6 @@ pub(super) const CHECKS: &[Check] = &[
     Check::of_library("batch-paths", Tosses(simd_levels, Count)).up_to(0.0, "tosses").by(CrossMethod).claims(
         "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. Measured: \
          the number of tosses with a difference; one is enough to fail.",
-    ),
-    Check::of_library("mean-cos-tilt-error", Tosses(mean_errors, Mean)).up_to(1e-15, "1").claims(
-        "The mean of |error| of cos θ at landing by the exact motion, by compensated phases and by a batch, against \
-         the 256-bit reference, is at most the limit, for phases up to 100 rad.",
-    ),
-    Check::of_library("cos-tilt-terms", Tosses(terms, Largest)).up_to(1e-18, "1").claims(
-        "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
-         without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
     ),
     Check::of_library("rigid-cos-tilt", Tosses(|| on_long_flights(cos_tilt_of_body), Largest))
         .up_to(1e-15, "1")
@@ -264,45 +255,6 @@ fn outcome(batch: &Batch<'_>) -> Result<Outcome, Error> {
     let mut out = [Outcome::Undecided];
     batch.outcomes(&mut out)?;
     Ok(out[0])
-}
-
-fn terms() -> Vec<Set> {
-    vec![
-        Set::of_tries("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
-        Set::of_tries("corners", |_| corners(), terms_error),
-    ]
-}
-
-/// Error of cos θ at launch before it is rounded to f64. There the terms of cos θ add up to it without a sine or cosine
-/// of f64, whose rounding hides theirs.
-fn terms_error(toss: &CoinToss, _: &Reference) -> Deviation {
-    let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(0.0)).expect("a valid time");
-    let toss = CoinToss { launch, ..*toss };
-    let (cos_tilt, _) = CoinMotion::new(&toss).cos_tilt_parts(0.0)?;
-    Ok(Reference::new(&toss).unrounded_cos_tilt_error(cos_tilt))
-}
-
-/// The mean shows whether a rounding error that is carried along was lost: the largest error grows by no more than a fifth
-/// then, because the rounding of the result hides it, and the mean is steadier.
-fn mean_errors() -> Vec<Set> {
-    type CosTilt = fn(&CoinToss) -> Deviation;
-    let methods: [(&str, CosTilt); 3] = [
-        ("exact", cos_tilt_of_exact_motion),
-        ("compensated", compensated_cos_tilt),
-        ("batch", |toss| batched(toss, cos_tilt)),
-    ];
-    let set = |launches: &str, flat: bool, (method, of): (&str, CosTilt)| {
-        let tosses = move |tries: u64| {
-            let all = level(random(tries.min(100_000), 1e2, 16)?)?;
-            Ok(all.into_iter().filter(|toss| is_horizontal(&toss.launch) == flat).collect())
-        };
-        let error = move |toss: &CoinToss, reference: &Reference| Ok(reference.cos_tilt_error(of(toss)?));
-        Set::of_tries(&format!("{method}, {launches}"), tosses, error)
-    };
-    [("horizontal", true), ("tilted", false)]
-        .into_iter()
-        .flat_map(|(launches, flat)| methods.map(|method| set(launches, flat, method)))
-        .collect()
 }
 
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {

@@ -1,10 +1,9 @@
 //! The checks of every subject (a solver with its settings) on random launches of coins and on bodies in families each of
-//! which is hard for a method of its own: by the 256-bit reference, by what a free body conserves, by each other and by what
-//! they claim. Random launches show errors between the special cases that other checks choose. Solvers that refuse bodies
+//! which is hard for a method of its own: by the 256-bit reference, by what a free body conserves and by what they claim. Random launches show errors between the special cases that other checks choose. Solvers that refuse bodies
 //! have no rows of them: what they must refuse is in the atlas.
 //!
-//! Of what is conserved (a) to (c) are the checks that the paper itself applies: the length of the angular momentum S, the
-//! kinetic energy, and n·S, where n is the coin's normal.
+//! The paper itself checks (a) the length of the angular momentum S, (b) the kinetic energy, and (c) n·S, where n is the coin's
+//! normal. (a) and (c) follow from (b) and S as a vector.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +13,7 @@ use toss::{CoinMotion, CoinToss, Formulation, Landing, Launch, Scheme, SolverEnt
 
 use crate::measure::any_launch;
 use crate::measure::case::is_horizontal;
-use crate::measure::check::Basis::{CrossMethod, Invariant};
+use crate::measure::check::Basis::Invariant;
 use crate::measure::check::Measure::Own;
 use crate::measure::check::ceiling::{ATTITUDE, COS_TILT};
 use crate::measure::check::{Allowed, Check, Landed, Measure, OfLanding, of_landings};
@@ -46,10 +45,6 @@ pub(super) const CHECKS: &[Check] = &[
     Check::of_solvers("random-attitude", random(attitude_error))
         .up_to(ATTITUDE, "rad")
         .claims("On random launches, the attitude at landing differs from the 256-bit reference by at most the limit."),
-    Check::of_solvers("cross-method-attitude", Own(cross_method)).up_to(2.0 * ATTITUDE, "rad").by(CrossMethod).claims(
-        "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
-         and any other, differ by at most the limit.",
-    ),
     Check::of_solvers("claims-measured", Own(claims)).up_to(LARGEST_RATIO, "1").claims(
         "A solver claims no errors that are far larger than its own. Measured: on random launches, the median of its \
          error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, or \
@@ -66,33 +61,12 @@ pub(super) const CHECKS: &[Check] = &[
         "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return there, \
          the attitude differs from the 256-bit reference by at most the limit.",
     ),
-    Check::of_solvers("invariant-momentum", random(|landed| drifted(landed, drift::momentum)))
-        .up_to(ATTITUDE, "1")
-        .by(Invariant)
-        .claims(
-            "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
-             limit, relative to |S|.",
-        ),
     Check::of_solvers("invariant-energy", random(|landed| drifted(landed, drift::energy)))
         .up_to(ATTITUDE, "1")
         .by(Invariant)
         .claims(
             "(b) The kinetic energy differs at landing from its value at launch by at most the limit, relative to that \
              value.",
-        ),
-    Check::of_solvers("invariant-normal-momentum-body", random(|landed| drifted(landed, drift::normal_momentum_body)))
-        .up_to(ATTITUDE, "1")
-        .by(Invariant)
-        .claims(
-            "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
-             at landing, differs from its value at launch by at most the limit, relative to |S|.",
-        ),
-    Check::of_solvers("invariant-normal-momentum-transport", random(|landed| drifted(landed, drift::normal_momentum)))
-        .up_to(ATTITUDE, "1")
-        .by(Invariant)
-        .claims(
-            "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
-             attitude at landing, differs from its value at launch by at most the limit, relative to |S|.",
         ),
     Check::of_solvers("invariant-momentum-vector", random(|landed| drifted(landed, drift::momentum_vector)))
         .up_to(ATTITUDE, "1")
@@ -136,41 +110,6 @@ fn cos_tilt_error(landed: &Landed<'_>) -> Option<f64> {
 
 fn attitude_error(landed: &Landed<'_>) -> Option<f64> {
     Some(landed.exact.attitude_error(&landed.landing.state.attitude))
-}
-
-fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let survey = context.survey.get(context)?;
-    let subjects: Vec<_> = context.subjects.iter().zip(&survey.landings).collect();
-    let mut measurements = Vec::new();
-    for (index, one) in subjects.iter().enumerate() {
-        for other in &subjects[index + 1..] {
-            let [a, b] = [one.0.stepping, other.0.stepping];
-            if a == b || a.is_none() || b.is_none() {
-                measurements.push(pair(survey, *one, *other));
-            }
-        }
-    }
-    Ok(measurements)
-}
-
-fn pair(survey: &Survey, one: (&Subject, &Landings), other: (&Subject, &Landings)) -> Measurement {
-    let allowed = |subject: &Subject, toss: &Toss, landing: &Landing| {
-        Some(Allowance::new(subject, toss, landing.error)?.attitude)
-    };
-    let trial = |index: usize| {
-        let toss = &survey.tosses[index];
-        let found = match (&one.1[index], &other.1[index]) {
-            (Ok(a), Ok(b)) => {
-                // The two errors may add up, so the difference may be as large as the sum of both allowances.
-                let both = allowed(one.0, toss, a).zip(allowed(other.0, toss, b));
-                Ok((a.state.attitude.angle_to(&b.state.attitude), both.map(|(one, other)| one + other)))
-            }
-            (Err(error), _) | (_, Err(error)) => Err(error.clone()),
-        };
-        Trial::by(other.0, toss, found)
-    };
-    let trials: Vec<Trial<'_>> = (0..survey.tosses.len()).map(trial).collect();
-    Fold::Largest.of(&format!("{} ~ {}", one.0.entry.name(), other.0.name), &trials)
 }
 
 /// The largest ratio that is no fault. Error estimates hold for every launch, also those near the places where a method

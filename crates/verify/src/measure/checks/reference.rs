@@ -1,5 +1,5 @@
 //! The checks of numbers from outside the workspace, so that an error which all our code shares shows: landings in
-//! `data/motion.toml`, the test problem DETEST B5, published motions of bodies, the coins of the catalogue, and the paper's
+//! `data/motion.toml`, published motions of bodies, the coins of the catalogue, and the paper's
 //! two tosses, of which the cheated one must land heads and the one of its Fig. 3 tails.
 //!
 //! "Heads with certainty" has two meanings, and both are checked. With the paper's moments the cone angle ψ between
@@ -8,20 +8,16 @@
 //! forever.
 
 use dynamics::catalogue::{CATALOGUE, Entry};
-use dynamics::integrate::{OdeSystem, integrate};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use nalgebra::SVector;
 use rayon::prelude::*;
-use toss::{
-    Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solver, Stepping, Tilt, TimeOfFlight, Toss,
-};
+use toss::{Coin, Landing, Launch, Outcome, Sensitivity, SolveError, Solver, Tilt, TimeOfFlight, Toss};
 
 use crate::measure::check::Basis::PublishedFigure;
 use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::check::ceiling::{ATTITUDE, COS_TILT};
 use crate::measure::context::Context;
-use crate::measure::reference::outside::{Detest, FirstFlip, ReferenceBody, ReferenceFlight};
+use crate::measure::reference::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::trial::{Fold, Measurement, Trial};
@@ -32,10 +28,6 @@ pub(super) const CHECKS: &[Check] = &[
         .claims("On every reference flight, cos θ at landing differs from the reference number by at most the limit."),
     Check::of_solvers("reference-attitude", Own(attitude)).up_to(ATTITUDE, "rad").claims(
         "On every reference flight, the attitude at landing differs from the reference attitude by at most the limit.",
-    ),
-    Check::of_library("detest-b5", Own(detest)).up_to(1e-6, "1").claims(
-        "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from the \
-         reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the limit.",
     ),
     Check::of_library("catalogue-moments", Own(moments)).up_to(1e-14, "1").by(PublishedFigure).claims(
         "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness by \
@@ -104,30 +96,6 @@ fn over_flights(
         Fold::Largest.of(&subject.name, &context.data.flights.iter().map(trial).collect::<Vec<_>>())
     };
     context.subjects.par_iter().map(row).collect()
-}
-
-struct AsymmetricBody;
-
-impl OdeSystem<3> for AsymmetricBody {
-    fn derivative(&self, y: &SVector<f64, 3>) -> SVector<f64, 3> {
-        SVector::from([y[1] * y[2], -y[0] * y[2], -0.51 * y[0] * y[1]])
-    }
-}
-
-fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let Detest { time, state: exact } = context.data.detest_b5;
-    let steppings = [
-        Stepping::adaptive(Scheme::DOP853, 1e-12)?,
-        Stepping::adaptive(Scheme::DOPRI5, 1e-12)?,
-        Stepping::fixed(Scheme::RK4, 1e-3)?,
-    ];
-    let measure = |stepping: &Stepping| {
-        let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, stepping)?;
-        let error = (end - SVector::from(exact)).amax();
-        let input = format!("y(0) = (0, 1, 1), t = {time}, {stepping}");
-        Ok(Measurement::figure(stepping.scheme().name(), error, 1, input))
-    };
-    steppings.iter().map(measure).collect()
 }
 
 fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -25,7 +25,6 @@ pub(crate) struct ReferenceData {
     pub(crate) first_flips: Vec<FirstFlip>,
     #[serde(rename = "long_flight")]
     pub(crate) long_flights: Vec<ReferenceLongFlight>,
-    pub(crate) detest_b5: Detest,
 }
 
 #[derive(Deserialize)]
@@ -89,14 +88,6 @@ impl FirstFlip {
 pub(crate) struct ReferenceLongFlight {
     pub(crate) cone_deg: f64,
     pub(crate) probability: f64,
-}
-
-/// The problem DETEST B5: a time, and the state at that time.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Detest {
-    pub(crate) time: f64,
-    pub(crate) state: [f64; 3],
 }
 
 impl ReferenceData {

@@ -1,14 +1,12 @@
-//! Draws errors: against the step, with the order that each line shows beside that which theory gives; against the time of
-//! flight, with drifts; and of the committed records over time, so that one sees what became better or worse.
+//! Draws errors: against the step, with the order that each line shows beside that which theory gives;
+//! and of the committed records over time, so that one sees what became better or worse.
 
 use chart::{Axis, ChartError, EndLabel, Series, end_labels, frame, log_log, pixel, svg};
 use plotters::prelude::*;
 
 use super::palette::Palette;
-use super::{legend, legend_height};
 use crate::judge::record::Record;
 use crate::measure::convergence::Convergence;
-use crate::measure::long_flights::{Drift, LongFlights};
 use crate::render::text::FOLLOWED;
 
 /// Where the labels begin (pixels from the top).
@@ -37,47 +35,6 @@ pub(super) fn order(all: &[Convergence], palette: &Palette<'_>) -> Result<String
         let from_the_top = labels.into_iter().map(|label| EndLabel { y: ORDER_TOP, ..label }).collect();
         end_labels(root, 2000 - i32::try_from(ORDER_RIGHT).unwrap_or(0) + 20, from_the_top)
     })
-}
-
-/// The number that is drawn of each flight.
-type DriftOf = fn(&Drift) -> f64;
-
-/// Title, label of the axis and quantity, by panel.
-const PANELS: [(&str, &str, DriftOf); 4] = [
-    ("Attitude", "error [rad]", |drift| drift.err_attitude),
-    ("S in the transport frame", "relative drift", |drift| drift.momentum_vector),
-    ("Kinetic energy", "relative drift", |drift| drift.energy),
-    ("Norm of the quaternion", "norm error", |drift| drift.norm_error),
-];
-
-pub(super) fn long_flights(flights: &LongFlights, palette: &Palette<'_>) -> Result<String, ChartError> {
-    let foot = legend_height(flights.subjects().count());
-    let height = 1160 + foot;
-    let x = Axis::logarithmic("time of flight [s]", 1.0..1e4);
-    svg((2000, height), |root| {
-        let (body, foot) = root.split_vertically(height - foot);
-        for ((title, label, quantity), panel) in PANELS.into_iter().zip(body.split_evenly((2, 2))) {
-            let y = Axis::logarithmic(label, 1e-17..1e-3);
-            log_log(&panel, title, (&x, &y), &drifts(flights, quantity, palette), 40)?;
-        }
-        legend(&foot, &drifts(flights, PANELS[0].2, palette))
-    })
-}
-
-/// The lines of a panel. A value of exactly 0 is not drawn, because the axis is logarithmic.
-fn drifts(flights: &LongFlights, quantity: DriftOf, palette: &Palette<'_>) -> Vec<Series> {
-    let of_subject = |subject: &str| {
-        let (mut points, mut failures) = (Vec::new(), Vec::new());
-        for (time, found) in flights.of(subject) {
-            match found {
-                Ok(drift) if quantity(drift) > 0.0 => points.push((time, quantity(drift))),
-                Ok(_) => {}
-                Err(_) => failures.push(time),
-            }
-        }
-        palette.line(subject, subject.to_owned(), points, failures)
-    };
-    flights.subjects().map(of_subject).collect()
 }
 
 const HISTORY_SIZE: (u32, u32) = (2000, 900);

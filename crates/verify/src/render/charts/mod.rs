@@ -5,11 +5,9 @@ mod errors;
 mod palette;
 mod work;
 
-use chart::{ChartError, Drawn, Panel, Series};
-use sampling::RunningStep;
+use chart::ChartError;
 use toss::SolverEntry;
 
-use crate::measure::atlas::expected::Expectation;
 use crate::measure::work_precision::Sweep;
 use crate::render::Report;
 pub(crate) use atlas::matrix;
@@ -28,9 +26,6 @@ pub struct Chart {
     pub caption: Option<String>,
 }
 
-/// The file of the chart with which a report opens.
-pub(super) const OVERVIEW: &str = "work-precision.svg";
-
 /// Draws speed against accuracy on the problem `problem` of the record of the day `date`, as SVG. Solvers have the colours
 /// of `registry`.
 ///
@@ -47,24 +42,10 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
     let records = &report.context;
     let palette = Palette::new(&records.registry);
     let mut charts = Vec::new();
-    if let Some(all) = records.atlas.found() {
-        let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Expectation::Answer);
-        charts.push(chart("atlas-matrix.svg", matrix(&all.subjects(), worst)?));
-        charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
-        charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
-    }
-    if let Some(flights) = records.long_flights.found() {
-        charts.push(chart("long-flights.svg", errors::long_flights(flights, &palette)?));
-    }
-    if let Some(steps) = records.fig4.found() {
-        let columns: Vec<[f64; 5]> = steps.iter().filter_map(RunningStep::columns).collect();
-        charts.push(chart("fig4.svg", chart::running("", &columns)?));
-    }
     if let Some(all) = records.convergence.found().filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", errors::order(all, &palette)?));
     }
-    if let (Some(sweep), Some(problem)) = (records.sweep.found(), report.ordinary()) {
-        charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
+    if let Some(sweep) = records.sweep.found() {
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
@@ -78,17 +59,4 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
 
 fn chart(file: &str, svg: String) -> Chart {
     Chart { file: file.to_owned(), svg, caption: None }
-}
-
-/// Columns of a legend below panels.
-const COLUMNS: i32 = 4;
-
-/// Height of the legend of so many lines and of the remark on failures (pixels).
-fn legend_height(lines: usize) -> u32 {
-    let entries = i32::try_from(lines).unwrap_or(i32::MAX - 4) + 1;
-    38 + 44 * (entries + COLUMNS - 1).div_euclid(COLUMNS).unsigned_abs()
-}
-
-fn legend(panel: &Panel<'_>, lines: &[Series]) -> Drawn {
-    chart::legend(panel, lines, COLUMNS, 480)
 }

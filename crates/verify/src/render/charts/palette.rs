@@ -1,10 +1,9 @@
 //! Chooses how solvers are drawn, alike in all charts: the colour comes from the registry or, for a solver without one,
-//! from a list of colours that none of the others has; the form of points and lines comes from the scheme or the
-//! formulation.
+//! from a list of colours that none of the others has; the form of points and lines comes from the scheme.
 
 use chart::{LINE_WIDTH, Marker, Series};
 use plotters::style::RGBColor;
-use toss::{Formulation, SolverEntry};
+use toss::SolverEntry;
 
 /// Colours for solvers without one, in this order: dark and light by turns. Each was chosen to differ from those before
 /// it, from the colours of the library's solvers and from the purple of remarks also in the simulations of protanopia,
@@ -52,28 +51,6 @@ impl<'a> Palette<'a> {
             _ => (Marker::Disc, false),
         };
         Series { label, colour: self.colour(subject), width: LINE_WIDTH, dashed, marker, points, failures }
-    }
-
-    /// The contestants of the atlas, each by the first scheme of its solver and with the form of its formulation.
-    pub(super) fn contestants(&self) -> Vec<(String, RGBColor, bool, Marker)> {
-        let forms = [
-            (Formulation::RAW, true, Marker::Ring),
-            (Formulation::VERTICAL, true, Marker::Triangle),
-            (Formulation::MOMENTUM, false, Marker::Disc),
-        ];
-        let mut contestants = Vec::new();
-        for (formulation, dashed, marker) in forms {
-            for entry in self.registry {
-                let is_default = formulation == Formulation::default();
-                if is_default || entry.formulations().contains(&formulation) {
-                    let scheme = entry.schemes().first().map(|scheme| format!("/{}", scheme.name()));
-                    let suffix = if is_default { String::new() } else { format!("/{}", formulation.name()) };
-                    let name = format!("{}{}{suffix}", entry.name(), scheme.unwrap_or_default());
-                    contestants.push((name, self.colour(entry.name()), dashed, marker));
-                }
-            }
-        }
-        contestants
     }
 }
 

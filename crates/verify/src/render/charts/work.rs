@@ -53,14 +53,6 @@ pub(super) fn work_precision(
     })
 }
 
-/// Size of the chart of one problem alone, by time.
-const OVERVIEW_SIZE: (u32, u32) = (1000, 820);
-
-/// The chart of `problem`, of so many launches, by time alone, as SVG: who needs least, at a glance.
-pub(super) fn overview(sweep: &Sweep, problem: (&str, usize), palette: &Palette<'_>) -> Result<String, ChartError> {
-    svg(OVERVIEW_SIZE, |root| Drawing::new(sweep, problem, palette).panel(root, TIME))
-}
-
 fn error_axis() -> Axis {
     Axis::logarithmic("error of the attitude [rad]", ERRORS)
 }

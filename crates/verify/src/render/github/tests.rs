@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::judge::Row;
 use crate::judge::time::Timing;
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
@@ -45,9 +46,4 @@ fn a_summary_of_thousands_of_failing_rows_is_below_the_limit_of_one_mebibyte() {
     let long = "x".repeat(300);
     let rows: Vec<Row> = (0..5000).map(|index| row("random-attitude", &format!("{long}{index}"), 2.0, 1.0)).collect();
     assert!(with_report(&rows, summary).len() < 1 << 20);
-}
-
-#[test]
-fn cells_hold_no_markup() {
-    assert_eq!(cell("a|b\n*c* <d> exact ~ e_f"), "a\\|b \\*c\\* \\<d> exact \\~ e\\_f");
 }

@@ -89,7 +89,7 @@ pub(super) const FAULTS: &[Fault] = &[
                 Landing::new(State { attitude: state.attitude.inverse(), ..state }, work)
             })
         },
-        &["random-attitude", "invariant-normal-momentum-body"],
+        &["random-attitude", "invariant-momentum-vector"],
     ),
     (
         "rate-of-launch",
@@ -107,7 +107,7 @@ pub(super) const FAULTS: &[Fault] = &[
     (
         "long-is-still",
         |toss| if toss.launch.turn_rate() * toss.launch.flight_time() > 1e3 { Ok(still(toss)) } else { fly(*toss) },
-        &[SILENCE, "long-flight-error"],
+        &[SILENCE, "atlas-answers"],
     ),
     // Refusals.
     ("refuses-all", |_| Err(SolveError::NotFinite { time: 0.0 }), &["random-attitude", "adversarial-refusals"]),
