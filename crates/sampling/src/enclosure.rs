@@ -13,6 +13,7 @@ mod directions;
 mod function;
 mod means;
 mod roots;
+mod series;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -346,12 +347,12 @@ impl<'a> Work<'a> {
     }
 }
 
-/// The bounds of a cell with this number of directions, by series of order 2 and, over one or two, of order 4.
+/// The bounds of a cell with this number of directions, by series of the order 2 about its middle and, over the whole of it, of the order 4, or 3 in three.
 fn bounds_in<'a>(problem: &Problem<'a>, cell: &Cell<'a>, directions: usize, enough: f64) -> Bounds {
     match directions {
         0 | 1 => problem.bounds::<3, 5>(cell, enough),
         2 => problem.bounds::<6, 15>(cell, enough),
-        _ => problem.bounds::<10, 10>(cell, enough),
+        _ => problem.bounds::<10, 20>(cell, enough),
     }
 }
 

@@ -1,10 +1,11 @@
 //! The arithmetic of the bounds of a mean: a function as a pair of series, one about the middle of a cell and one over the whole of
 //! it, and bounds of its mean and of that of its positive part.
 
-use numerics::positive_part::{self, Power};
-use numerics::{Ball, Elementary, Jet};
+use numerics::positive_part::{self, Curved, Power};
+use numerics::{Ball, Elementary};
 
 use super::cell::MOST_DIRECTIONS;
+use super::series::{Exponents, Series};
 
 /// Bounds of a mean over a cell.
 #[derive(Debug, Clone, Copy)]
@@ -52,55 +53,84 @@ pub(super) fn magnitude(ball: &Ball<f64>) -> f64 {
     if size.is_nan() { f64::INFINITY } else { size }
 }
 
-/// A function about the middle of a cell, and over the whole of it.
+/// A function about the middle of a cell, in a series of the order 2, and over the whole of it, in one of the same or a higher order.
 #[derive(Clone, Copy)]
-pub(super) struct Function<const T: usize> {
-    pub(super) middle: Jet<Ball<f64>, T>,
-    pub(super) whole: Jet<Ball<f64>, T>,
+pub(super) struct Function<const T: usize, const F: usize> {
+    pub(super) middle: Series<T>,
+    pub(super) whole: Series<F>,
 }
 
-impl<const T: usize> Function<T> {
-    pub(super) fn map(self, apply: impl Fn(Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T>) -> Self {
-        Self { middle: apply(self.middle), whole: apply(self.whole) }
+impl<const T: usize, const F: usize> Function<T, F> {
+    pub(super) fn constant(value: Ball<f64>) -> Self {
+        Self { middle: Series::constant(value), whole: Series::constant(value) }
     }
 
-    pub(super) fn with(
-        self,
-        other: Self,
-        apply: impl Fn(Jet<Ball<f64>, T>, Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T>,
-    ) -> Self {
-        Self { middle: apply(self.middle, other.middle), whole: apply(self.whole, other.whole) }
+    pub(super) fn times(&self, other: &Self) -> Self {
+        Self { middle: self.middle.times(&other.middle), whole: self.whole.times(&other.whole) }
     }
 
-    pub(super) fn times(self, other: Self) -> Self {
-        self.with(other, |one, other| one * other)
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Self { middle: self.middle.plus(&other.middle), whole: self.whole.plus(&other.whole) }
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
-        self.with(other, |one, other| one + other)
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        Self { middle: self.middle.minus(&other.middle), whole: self.whole.minus(&other.whole) }
     }
 
-    pub(super) fn minus(self, other: Self) -> Self {
-        self.with(other, |one, other| one - other)
+    pub(super) fn scaled(&self, factor: &Ball<f64>) -> Self {
+        Self { middle: self.middle.scaled(factor), whole: self.whole.scaled(factor) }
     }
 
-    pub(super) fn scaled(self, factor: f64) -> Self {
-        self.map(|jet| jet.scaled(&exactly(factor)))
+    pub(super) fn shifted(&self, by: Ball<f64>) -> Self {
+        let shifted = |value| value + by;
+        Self {
+            middle: self.middle.with_constant(shifted(self.middle.value())),
+            whole: self.whole.with_constant(shifted(self.whole.value())),
+        }
     }
 
-    /// The same function, whose values over the cell are bounded by the mean value theorem where that is narrower.
+    pub(super) fn reciprocal(&self) -> Self {
+        Self { middle: self.middle.reciprocal(), whole: self.whole.reciprocal() }.narrowed()
+    }
+
+    /// 1 over the square root.
+    pub(super) fn inverse_root(&self) -> Self {
+        Self { middle: self.middle.inverse_root(), whole: self.whole.inverse_root() }.narrowed()
+    }
+
+    /// The angle of the point (`x`, `self`), with 1 over the square of its radius.
+    pub(super) fn angle(&self, x: &Self, inverse: &Self) -> Self {
+        let middle = self.middle.angle(&x.middle, &inverse.middle);
+        Self { middle, whole: self.whole.angle(&x.whole, &inverse.whole) }.narrowed()
+    }
+
+    /// The same function in series of the order 2.
+    pub(super) fn of_order_2(&self) -> Function<T, T> {
+        Function { middle: self.middle, whole: self.whole.truncated() }
+    }
+
+    /// The same function, whose terms over the cell but the last are bounded by the mean value theorem where that is narrower: a
+    /// derivative is that at the middle, and no further from it than its own derivatives tell.
     pub(super) fn narrowed(mut self) -> Self {
-        let value = self.middle.value();
-        let reach =
-            self.whole.slopes().iter().map(magnitude).fold(value.radius(), |sum, slope| (sum + slope).next_up());
-        if reach < self.whole.value().radius() {
-            self.whole = self.whole.with_constant(Ball::new(*value.midpoint(), reach));
+        let kept = if Series::<F>::ORDER > 2 { T } else { 1 + Series::<T>::VARIABLES };
+        for index in (0..kept).rev() {
+            let (about_middle, now) = (self.middle.term(index), self.whole.term(index));
+            let mut reach = about_middle.radius();
+            for (higher, exponent) in Series::<F>::HIGHER[index].iter().zip(Series::<F>::EXPONENTS[index]) {
+                if *higher < F {
+                    let part = f64::from(exponent + 1) * magnitude(&self.whole.term(*higher));
+                    reach = (reach + part * (1.0 + f64::EPSILON)).next_up();
+                }
+            }
+            if reach < now.radius() || now.radius().is_nan() {
+                self.whole.set(index, Ball::new(*about_middle.midpoint(), reach));
+            }
         }
         self
     }
 
     /// The values over the cell.
-    pub(super) fn values(&self) -> &Ball<f64> {
+    pub(super) fn values(&self) -> Ball<f64> {
         self.whole.value()
     }
 
@@ -111,83 +141,97 @@ impl<const T: usize> Function<T> {
 
     /// The largest absolute values of the slopes.
     pub(super) fn variation(&self) -> [f64; MOST_DIRECTIONS] {
-        let mut by = [0.0; MOST_DIRECTIONS];
-        for (by, slope) in by.iter_mut().zip(self.whole.slopes()) {
-            *by = magnitude(slope);
-        }
-        by
+        let slope = |index: usize| magnitude(&self.whole.term(1 + index));
+        std::array::from_fn(|index| if index < Series::<F>::VARIABLES { slope(index) } else { 0.0 })
     }
 
     /// Bounds of the mean over the cell: the terms of even degree about the middle have means, and the last terms are
     /// known over the whole cell as far as their balls tell.
     pub(super) fn mean(&self) -> Bounds {
-        mean(&self.middle, &self.whole)
+        let is_even = |exponents: &Exponents| exponents.iter().all(|exponent| exponent % 2 == 0);
+        let mut sum = self.middle.value();
+        for (exponents, term) in self.middle.of_degree(2).filter(|(exponents, _)| is_even(exponents)) {
+            sum = sum + term * Ball::new(moment(exponents), f64::EPSILON);
+        }
+        let mut by = [0.0; MOST_DIRECTIONS];
+        for (exponents, term) in self.whole.of_degree(Series::<F>::ORDER) {
+            let moment = moment(exponents);
+            if is_even(exponents) {
+                sum = sum + exactly(*term.midpoint()) * Ball::new(moment, f64::EPSILON);
+            }
+            let part = term.radius() * moment * (1.0 + 4.0 * f64::EPSILON);
+            sum = sum.widened(part);
+            add_by(&mut by, part, exponents);
+        }
+        Bounds::of_ball(&sum, by)
     }
 
-    /// Bounds of the mean of the positive part to `power`.
-    pub(super) fn mean_of_positive_part(&self, power: Power) -> Bounds {
-        let (value, slopes) = (self.middle.value(), self.middle.slopes());
-        let (mut by, mut off) = ([0.0; MOST_DIRECTIONS], value.radius());
-        for slope in slopes {
-            off = (off + slope.radius()).next_up();
-        }
-        for (exponents, term) in self.whole.terms().filter(|(exponents, _)| exponents.iter().sum::<u8>() == 2) {
-            // The mean of |t_i t_j|, or its largest value.
-            let moment = if power == Power::One { moment(exponents) } else { 1.0 };
-            let part = magnitude(term) * moment;
-            off = (off + part.next_up()).next_up();
-            for (by, exponent) in by.iter_mut().zip(exponents) {
-                *by += 0.5 * part * f64::from(*exponent);
+    /// Bounds of the mean of the positive part. The function is a polynomial of the second degree about the middle, but for the
+    /// terms of the third over the whole cell.
+    pub(super) fn mean_of_positive_part(&self) -> Bounds {
+        let (mut by, mut off) = ([0.0; MOST_DIRECTIONS], 0.0);
+        let mut curved = Curved { constant: *self.middle.value().midpoint(), ..Curved::default() };
+        for (index, exponents) in Series::<T>::EXPONENTS.iter().enumerate() {
+            let term = self.middle.term(index);
+            off += term.radius() * moment(exponents);
+            let mut variables = (0..MOST_DIRECTIONS).flat_map(|of| std::iter::repeat_n(of, exponents[of].into()));
+            match (variables.next(), variables.next()) {
+                (Some(one), Some(other)) => curved.curvature[one][other] = *term.midpoint(),
+                (Some(one), None) => curved.slopes[one] = *term.midpoint(),
+                _ => {}
             }
         }
-        let mut middles = [0.0; MOST_DIRECTIONS];
-        for (middle, slope) in middles.iter_mut().zip(slopes) {
-            *middle = *slope.midpoint();
+        for (exponents, term) in self.whole.of_degree(3) {
+            let part = magnitude(&term) * moment(exponents);
+            off += part;
+            add_by(&mut by, part, exponents);
+        }
+        // Each of some twenty parts has three roundings.
+        let off = off * (1.0 + 32.0 * f64::EPSILON);
+        if !(off.is_finite() && curved.is_finite()) {
+            return Bounds { lo: 0.0, hi: f64::INFINITY, by: self.variation() };
+        }
+        let ([lo, hi], bent) = positive_part::mean_of_curved(&curved, off);
+        let bend = curved.bend().max(f64::MIN_POSITIVE);
+        for (exponents, term) in self.middle.of_degree(2) {
+            add_by(&mut by, bent * (term.midpoint().abs() / bend), exponents);
+        }
+        Bounds { lo, hi, by }
+    }
+
+    /// Bounds of the mean of the positive part to a `power` below 1.
+    pub(super) fn mean_of_power(&self, power: Power) -> Bounds {
+        let value = self.middle.value();
+        let (mut by, mut off, mut slopes) = ([0.0; MOST_DIRECTIONS], value.radius(), [0.0; MOST_DIRECTIONS]);
+        for (exponents, term) in self.middle.of_degree(1) {
+            off = (off + term.radius()).next_up();
+            let index = exponents.iter().position(|exponent| *exponent > 0).unwrap_or(0);
+            slopes[index] = *term.midpoint();
+        }
+        for (exponents, term) in self.whole.of_degree(2) {
+            let part = magnitude(&term);
+            off = (off + part).next_up();
+            add_by(&mut by, part, exponents);
         }
         if !(off.is_finite() && value.midpoint().is_finite()) {
             return Bounds { lo: 0.0, hi: f64::INFINITY, by: self.variation() };
         }
-        let [lo, hi] = positive_part::mean(*value.midpoint(), &middles[..slopes.len()], off, power);
+        let [lo, hi] = positive_part::mean(*value.midpoint(), &slopes[..Series::<T>::VARIABLES], off, power);
         Bounds { lo, hi, by }
     }
 }
 
+/// Adds what a term contributes to a width to the directions, as its exponents say.
+fn add_by(by: &mut [f64; MOST_DIRECTIONS], part: f64, exponents: &Exponents) {
+    let of_degree = f64::from(exponents.iter().sum::<u8>());
+    for (by, exponent) in by.iter_mut().zip(exponents) {
+        *by += part * f64::from(*exponent) / of_degree;
+    }
+}
+
 /// The mean of |t^exponents| over the box from -1 to 1.
-fn moment(exponents: &[u8; 3]) -> f64 {
+fn moment(exponents: &Exponents) -> f64 {
     exponents.iter().map(|exponent| 1.0 / (1.0 + f64::from(*exponent))).product()
-}
-
-/// Whether there may be a number in both.
-pub(super) fn meet(one: &Ball<f64>, other: &Ball<f64>) -> bool {
-    let (apart, reach) = ((one.midpoint() - other.midpoint()).abs(), one.radius() + other.radius());
-    // Nothing is said of what is not a number.
-    apart.partial_cmp(&(reach * (1.0 + 1e-9))) != Some(std::cmp::Ordering::Greater)
-}
-
-/// Bounds of the mean of a function from its series about the middle, of order 2, and one over the whole cell.
-pub(super) fn mean<const T: usize, const F: usize>(middle: &Jet<Ball<f64>, T>, whole: &Jet<Ball<f64>, F>) -> Bounds {
-    let order = Jet::<Ball<f64>, F>::ORDER;
-    let degree = |exponents: &[u8; 3]| exponents.iter().map(|exponent| usize::from(*exponent)).sum::<usize>();
-    let is_even = |exponents: &[u8; 3]| exponents.iter().all(|exponent| exponent % 2 == 0);
-    let mut sum = *middle.value();
-    for (exponents, term) in middle.terms().filter(|(exponents, _)| degree(exponents) == 2 && order > 2) {
-        if is_even(exponents) {
-            sum = sum + *term * Ball::new(moment(exponents), f64::EPSILON);
-        }
-    }
-    let mut by = [0.0; MOST_DIRECTIONS];
-    for (exponents, term) in whole.terms().filter(|(exponents, _)| degree(exponents) == order) {
-        let moment = moment(exponents);
-        if is_even(exponents) {
-            sum = sum + exactly(*term.midpoint()) * Ball::new(moment, f64::EPSILON);
-        }
-        let part = term.radius() * moment * (1.0 + 4.0 * f64::EPSILON);
-        sum = sum.widened(part);
-        for (by, exponent) in by.iter_mut().zip(exponents) {
-            *by += part * f64::from(*exponent) / f64::from(u32::try_from(order).unwrap_or(4));
-        }
-    }
-    Bounds::of_ball(&sum, by)
 }
 
 #[cfg(test)]

@@ -4,7 +4,9 @@
 //! atan(√x)² = x r(x)²,   r(x) = Σ (-x)^k/(2k + 1)     for |x| < 1
 //! ```
 
-use numerics::{Ball, Elementary, Jet};
+use numerics::{Ball, Elementary};
+
+use super::series::Series;
 
 /// Terms of the series. For |x| ≤ ¼ the first one left out is below 2^-72 of the sum, also of the second derivative.
 const TERMS: u32 = 40;
@@ -13,9 +15,9 @@ const TERMS: u32 = 40;
 const LEFT_OUT: f64 = 8.470_329_472_543_003e-22; // 2^-70
 
 /// atan(√x)² for a series of order 2 whose constant term is a ball within |x| ≤ ¼, continued to x < 0.
-pub(super) fn squared_angle_of_root<const T: usize>(x: &Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T> {
-    debug_assert!(Jet::<Ball<f64>, T>::ORDER == 2);
-    let at = *x.value();
+pub(super) fn squared_angle_of_root<const T: usize>(x: &Series<T>) -> Series<T> {
+    debug_assert!(Series::<T>::ORDER == 2);
+    let at = x.value();
     let number = |value: f64| Ball::new(value, 0.0);
     // r, r' and ½ r'' by Horner's rule, from the last term on.
     let mut sums = [number(0.0); 3];
@@ -29,7 +31,7 @@ pub(super) fn squared_angle_of_root<const T: usize>(x: &Jet<Ball<f64>, T>) -> Je
     let [value, slope, curvature] = sums.map(|sum| sum.widened(LEFT_OUT));
     let nothing = number(0.0);
     let ratio = x.composed(&[value, slope, curvature, nothing, nothing]);
-    *x * ratio * ratio
+    x.times(&ratio).times(&ratio)
 }
 
 #[cfg(test)]
