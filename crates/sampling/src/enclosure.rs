@@ -159,6 +159,7 @@ fn enclosed(
     let left_out = left_out(space, roundings);
     let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress, stop };
     let mut best: Option<Enclosure> = None;
+    let (mut known, mut done) = (work.nothing(), 0);
     // A first threshold from which few cells result, and lower ones as the last width asks for.
     let mut passes = Passes {
         goal: 2.0 * accuracy,
@@ -169,8 +170,10 @@ fn enclosed(
     };
     loop {
         let is_first = best.is_none() && passes.threshold < 1.0;
-        let found = work.pass(passes.threshold, if is_first { most_cells.min(FIRST_PASS) } else { most_cells });
+        let most = if is_first { most_cells.min(FIRST_PASS) } else { most_cells };
+        let found = work.pass(&mut known, passes.threshold, (done, most));
         if found.is_none() && is_first && FIRST_PASS < most_cells {
+            known = work.nothing();
             passes.threshold *= 16.0;
             continue;
         }
@@ -178,6 +181,7 @@ fn enclosed(
             let interval = best.map_or(Interval { lo: 0.0, hi: 1.0 }, |best| best.interval);
             return Enclosure { interval, cells: most_cells };
         };
+        done = cells;
         let interval = ends(&sum.widened(left_out));
         let now = interval.width();
         let narrower = best.filter(|best| best.interval.width() <= now);
@@ -236,7 +240,7 @@ impl Passes {
         }
         let wanted = 0.8 * (self.goal / now).powf(self.power);
         let affordable = (self.most_cells as f64 / (LAST_PASS * cells) as f64).powf(-self.power);
-        self.threshold *= wanted.max(affordable).clamp(1e-5, if is_narrower { 0.5 } else { 0.05 });
+        self.threshold *= wanted.max(affordable).clamp(0.05, if is_narrower { 0.7 } else { 0.05 });
         true
     }
 
@@ -275,12 +279,13 @@ fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
     chosen.into_iter().map(Cell::whole).collect()
 }
 
-/// What a cell gives.
-enum Step<'a> {
-    /// Its mean times its volume.
-    Part(Ball<DoubleDouble>),
-    /// The halves that are to be looked at instead.
-    Halves(Box<[Cell<'a>; 2]>),
+/// What is known of a cell. A pass goes on with what the passes before it found.
+enum Known {
+    Nothing,
+    /// Bounds of its mean, and the direction in which it would be halved, if it can be.
+    Bounds { lo: f64, hi: f64, next: Option<u8> },
+    /// Its halves in this direction.
+    Halves(u8, Box<[Known; 2]>),
 }
 
 struct Work<'a> {
@@ -297,11 +302,16 @@ struct Count {
 }
 
 impl<'a> Work<'a> {
-    /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`; `None` if that
-    /// takes more than `most` cells.
-    fn pass(&self, threshold: f64, most: u64) -> Option<(Ball<DoubleDouble>, u64)> {
-        let (count, nothing) = (Count { done: AtomicU64::new(0), most }, Ball::new(DoubleDouble::ZERO, 0.0));
-        let mut sums = self.roots.iter().map(|root| self.sum(root, threshold, &count));
+    /// What is known of the roots before the first pass.
+    fn nothing(&self) -> Vec<Known> {
+        self.roots.iter().map(|_| Known::Nothing).collect()
+    }
+
+    /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`, and how many
+    /// cells were looked at with those of the passes before, `done`; `None` if these are more than `most`.
+    fn pass(&self, known: &mut [Known], threshold: f64, (done, most): (u64, u64)) -> Option<(Ball<DoubleDouble>, u64)> {
+        let (count, nothing) = (Count { done: AtomicU64::new(done), most }, Ball::new(DoubleDouble::ZERO, 0.0));
+        let mut sums = self.roots.iter().zip(known).map(|(root, known)| self.sum(root, known, threshold, &count));
         let sum = sums.try_fold(nothing, |sum, part| Some(sum + part?))?;
         let cells = count.done.into_inner();
         (self.progress)(cells % REPORTED);
@@ -310,40 +320,41 @@ impl<'a> Work<'a> {
 
     /// The sum over a cell. Its halves are given to two threads, wherever they are, and added in their order. After a stop no
     /// cell is halved any more.
-    fn sum(&self, cell: &Cell<'a>, threshold: f64, count: &Count) -> Option<Ball<DoubleDouble>> {
-        let done = count.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done > count.most {
-            return None;
+    fn sum(&self, cell: &Cell<'a>, known: &mut Known, threshold: f64, count: &Count) -> Option<Ball<DoubleDouble>> {
+        let volume = (-f64::from(cell.halvings())).exp2();
+        if matches!(known, Known::Nothing) {
+            let done = count.done.fetch_add(1, Ordering::Relaxed) + 1;
+            if done > count.most {
+                return None;
+            }
+            if done.is_multiple_of(REPORTED) {
+                (self.progress)(REPORTED);
+            }
+            let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), threshold / volume);
+            *known = Known::Bounds { lo: found.lo, hi: found.hi, next: direction(cell, &found) };
         }
-        if done.is_multiple_of(REPORTED) {
-            (self.progress)(REPORTED);
-        }
-        match self.step(cell, if (self.stop)() { f64::INFINITY } else { threshold }) {
-            Step::Part(part) => Some(part),
-            Step::Halves(halves) => {
-                let [one, other] = halves.each_ref().map(|half| || self.sum(half, threshold, count));
-                #[cfg(feature = "rayon")]
-                let (one, other) = rayon::join(one, other);
-                #[cfg(not(feature = "rayon"))]
-                let (one, other) = (one(), other());
-                Some(one? + other?)
+        if let Known::Bounds { lo, hi, next } = *known {
+            let width = hi - lo;
+            let is_wide = width.is_nan() || width > threshold / volume;
+            match next.filter(|_| is_wide && !(self.stop)()) {
+                Some(direction) => *known = Known::Halves(direction, Box::new([Known::Nothing, Known::Nothing])),
+                None => {
+                    let middle = 0.5 * (lo + hi);
+                    let radius = (0.5 * (hi - lo)).next_up() + f64::EPSILON * middle.abs();
+                    return Some(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume));
+                }
             }
         }
-    }
-
-    /// Bounds the mean over a cell, or halves the cell if the bounds are too far apart.
-    fn step(&self, cell: &Cell<'a>, threshold: f64) -> Step<'a> {
-        let volume = (-f64::from(cell.halvings())).exp2();
-        let enough = threshold / volume;
-        let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), enough);
-        if found.width() > enough
-            && let Some(halves) = halves(cell, &found)
-        {
-            return Step::Halves(Box::new(halves));
-        }
-        let middle = 0.5 * (found.lo + found.hi);
-        let radius = (0.5 * (found.hi - found.lo)).next_up() + f64::EPSILON * middle.abs();
-        Step::Part(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume))
+        let Known::Halves(direction, parts) = known else { return None };
+        let [lower, upper] = cell.halves(usize::from(*direction))?;
+        let [first, second] = &mut **parts;
+        let one = || self.sum(&lower, first, threshold, count);
+        let other = || self.sum(&upper, second, threshold, count);
+        #[cfg(feature = "rayon")]
+        let (one, other) = rayon::join(one, other);
+        #[cfg(not(feature = "rayon"))]
+        let (one, other) = (one(), other());
+        Some(one? + other?)
     }
 }
 
@@ -356,11 +367,12 @@ fn bounds_in<'a>(problem: &Problem<'a>, cell: &Cell<'a>, directions: usize, enou
     }
 }
 
-/// The halves of a cell in the direction that adds most to its width.
-fn halves<'a>(cell: &Cell<'a>, found: &Bounds) -> Option<[Cell<'a>; 2]> {
-    let mut order: Vec<usize> = (0..cell.directions.iter().flatten().count()).collect();
-    order.sort_by(|one, other| found.by[*other].total_cmp(&found.by[*one]));
-    order.into_iter().find_map(|index| cell.halves(index))
+/// The direction that adds most to the width of a cell, of those in which it can be halved.
+fn direction(cell: &Cell<'_>, found: &Bounds) -> Option<u8> {
+    let open = (0..cell.directions.iter().flatten().count()).filter(|index| cell.can_be_halved(*index));
+    // The first of those that add as much.
+    let most = open.rev().max_by(|one, other| found.by[*one].total_cmp(&found.by[*other]));
+    most.and_then(|index| u8::try_from(index).ok())
 }
 
 #[cfg(test)]

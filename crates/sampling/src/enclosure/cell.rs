@@ -29,9 +29,14 @@ impl<'a> Cell<'a> {
         self.level.iter().sum()
     }
 
-    /// Both halves in direction number `index`; `None` if the middle is not an f64.
+    /// Whether its middle in direction number `index` is an f64.
+    pub(super) fn can_be_halved(&self, index: usize) -> bool {
+        self.level[index] < FINEST
+    }
+
+    /// Both halves in direction number `index`; `None` if it cannot be halved.
     pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
-        (self.level[index] < FINEST).then(|| {
+        self.can_be_halved(index).then(|| {
             [0, 1].map(|half| {
                 let mut cell = self.clone();
                 cell.level[index] += 1;

@@ -65,22 +65,27 @@ impl<const T: usize, const F: usize> Function<T, F> {
         Self { middle: Series::constant(value), whole: Series::constant(value) }
     }
 
+    #[inline]
     pub(super) fn times(&self, other: &Self) -> Self {
         Self { middle: self.middle.times(&other.middle), whole: self.whole.times(&other.whole) }
     }
 
+    #[inline]
     pub(super) fn plus(&self, other: &Self) -> Self {
         Self { middle: self.middle.plus(&other.middle), whole: self.whole.plus(&other.whole) }
     }
 
+    #[inline]
     pub(super) fn minus(&self, other: &Self) -> Self {
         Self { middle: self.middle.minus(&other.middle), whole: self.whole.minus(&other.whole) }
     }
 
+    #[inline]
     pub(super) fn scaled(&self, factor: &Ball<f64>) -> Self {
         Self { middle: self.middle.scaled(factor), whole: self.whole.scaled(factor) }
     }
 
+    #[inline]
     pub(super) fn shifted(&self, by: Ball<f64>) -> Self {
         let shifted = |value| value + by;
         Self {
@@ -105,26 +110,19 @@ impl<const T: usize, const F: usize> Function<T, F> {
     }
 
     /// The same function in series of the order 2.
+    #[inline]
     pub(super) fn of_order_2(&self) -> Function<T, T> {
         Function { middle: self.middle, whole: self.whole.truncated() }
     }
 
-    /// The same function, whose terms over the cell but the last are bounded by the mean value theorem where that is narrower: a
-    /// derivative is that at the middle, and no further from it than its own derivatives tell.
+    /// The same function, whose values over the cell are bounded by the mean value theorem where that is narrower.
+    #[inline]
     pub(super) fn narrowed(mut self) -> Self {
-        let kept = if Series::<F>::ORDER > 2 { T } else { 1 + Series::<T>::VARIABLES };
-        for index in (0..kept).rev() {
-            let (about_middle, now) = (self.middle.term(index), self.whole.term(index));
-            let mut reach = about_middle.radius();
-            for (higher, exponent) in Series::<F>::HIGHER[index].iter().zip(Series::<F>::EXPONENTS[index]) {
-                if *higher < F {
-                    let part = f64::from(exponent + 1) * magnitude(&self.whole.term(*higher));
-                    reach = (reach + part * (1.0 + f64::EPSILON)).next_up();
-                }
-            }
-            if reach < now.radius() || now.radius().is_nan() {
-                self.whole.set(index, Ball::new(*about_middle.midpoint(), reach));
-            }
+        let value = self.middle.value();
+        let slopes = self.variation().iter().sum::<f64>();
+        let reach = (value.radius() + slopes) * (1.0 + 4.0 * f64::EPSILON);
+        if reach < self.whole.value().radius() || self.whole.value().radius().is_nan() {
+            self.whole = self.whole.with_constant(Ball::new(*value.midpoint(), reach));
         }
         self
     }
@@ -238,81 +236,95 @@ fn moment(exponents: &Exponents) -> f64 {
 mod tests {
     use super::*;
 
-    fn monomial<const T: usize>(exponents: [i32; 2], factor: Ball<f64>) -> Jet<Ball<f64>, T> {
-        let [one, other] = [0, 1].map(|index| Jet::variable(exactly(0.0), exactly(1.0), index));
-        let power = |variable: Jet<Ball<f64>, T>, exponent| {
-            (0..exponent).fold(Jet::constant(exactly(1.0)), |all, _| all * variable)
-        };
-        (power(one, exponents[0]) * power(other, exponents[1])).scaled(&factor)
+    fn monomial<const T: usize>(exponents: Exponents, factor: Ball<f64>) -> Series<T> {
+        let mut series = Series::constant(exactly(0.0));
+        series.set(Series::<T>::EXPONENTS.iter().position(|of| *of == exponents).unwrap(), factor);
+        series
+    }
+
+    fn function<const T: usize, const F: usize>(middle: Series<T>, whole: Series<F>) -> Function<T, F> {
+        Function { middle, whole }
     }
 
     /// A coefficient of a last term may have the sign of the term everywhere, so that its mean is that of the absolute value.
     #[test]
     fn a_last_term_of_any_sign_is_within_the_mean_of_its_absolute_value() {
-        fn reaches<const F: usize>(exponents: [i32; 2], expected: f64) {
-            let unknown = monomial::<F>(exponents, Ball::new(0.0, 1.0));
-            let found = mean(&Jet::<_, 6>::constant(exactly(0.0)), &unknown);
+        fn reaches<const T: usize, const F: usize>(exponents: Exponents, expected: f64) {
+            let zero = Series::<T>::constant(exactly(0.0));
+            let found = function(zero, monomial::<F>(exponents, Ball::new(0.0, 1.0))).mean();
             let [least, most] = [-found.lo, found.hi];
             for reach in [least, most] {
                 assert!(reach >= expected && reach < expected * (1.0 + 1e-12), "{exponents:?}: {found:?}");
             }
             // Each direction adds to it as its exponent says.
             for (by, exponent) in found.by.iter().zip(exponents) {
-                let part = expected * f64::from(exponent) / f64::from(exponents.iter().sum::<i32>());
+                let part = expected * f64::from(exponent) / f64::from(exponents.iter().sum::<u8>());
                 assert!((by - part).abs() < 1e-12, "{exponents:?}: {found:?}");
             }
             // With room for the roundings of two products.
-            let radius: f64 = unknown.terms().map(|(_, term)| term.radius()).sum();
-            let room = found.by.iter().sum::<f64>() / (expected * radius) - 1.0;
+            let room = found.by.iter().sum::<f64>() / expected - 1.0;
             assert!((2.0 * f64::EPSILON..8.0 * f64::EPSILON).contains(&room), "{exponents:?}: {room:e}");
             // A known one has a mean of its own.
-            let known = mean(&Jet::<_, 6>::constant(exactly(0.0)), &monomial::<F>(exponents, exactly(1.0)));
+            let known = function(zero, monomial::<F>(exponents, exactly(1.0))).mean();
             let own = if exponents.iter().all(|exponent| exponent % 2 == 0) { expected } else { 0.0 };
             assert!((known.lo - own).abs() < 1e-14 && (known.hi - own).abs() < 1e-14, "{exponents:?}: {known:?}");
         }
-        reaches::<6>([2, 0], 1.0 / 3.0);
-        reaches::<6>([1, 1], 1.0 / 4.0);
-        reaches::<15>([4, 0], 1.0 / 5.0);
-        reaches::<15>([3, 1], 1.0 / 8.0);
-        reaches::<15>([2, 2], 1.0 / 9.0);
+        reaches::<3, 5>([4, 0, 0], 1.0 / 5.0);
+        reaches::<6, 15>([4, 0, 0], 1.0 / 5.0);
+        reaches::<6, 15>([3, 1, 0], 1.0 / 8.0);
+        reaches::<6, 15>([2, 2, 0], 1.0 / 9.0);
+        reaches::<10, 20>([3, 0, 0], 1.0 / 4.0);
+        reaches::<10, 20>([0, 2, 1], 1.0 / 6.0);
+        reaches::<10, 20>([1, 1, 1], 1.0 / 8.0);
     }
 
-    /// Terms of even exponents have a mean, in series of four orders those of the second order too.
+    /// Terms of even exponents have a mean, those of the second degree too.
     #[test]
     fn the_mean_of_a_polynomial_is_that_of_its_even_terms() {
-        let middle = Jet::<_, 6>::constant(exactly(2.0))
-            + monomial([1, 0], exactly(7.0))
-            + monomial([2, 0], exactly(3.0))
-            + monomial([1, 1], exactly(5.0))
-            + monomial([0, 2], exactly(0.5));
-        let found = mean(&middle, &monomial::<15>([2, 2], exactly(9.0)));
+        let middle = Series::<6>::constant(exactly(2.0))
+            + monomial([1, 0, 0], exactly(7.0))
+            + monomial([2, 0, 0], exactly(3.0))
+            + monomial([1, 1, 0], exactly(5.0))
+            + monomial([0, 2, 0], exactly(0.5));
+        let found = function(middle, monomial::<15>([2, 2, 0], exactly(9.0))).mean();
         let expected = 2.0 + 3.0 / 3.0 + 0.5 / 3.0 + 9.0 / 9.0;
         assert!(found.lo <= expected && expected <= found.hi && found.width() < 1e-13, "{found:?}");
     }
+
+    /// All second derivatives add to what a function to a power below 1 is off, at their largest.
     #[test]
-    fn a_positive_part_allows_for_all_second_derivatives() {
-        for (exponents, on_average) in [([2, 0], 1.0 / 3.0), ([1, 1], 1.0 / 4.0), ([0, 2], 1.0 / 3.0)] {
-            let linear = monomial::<6>([1, 0], exactly(0.5)) + monomial::<6>([0, 1], exactly(0.25));
-            let function = Function { middle: linear, whole: linear + monomial(exponents, Ball::new(0.0, 0.01)) };
-            let exact = Function { middle: linear, whole: linear };
-            for (power, off) in [(Power::One, 0.01 * on_average), (Power::Half, 0.01), (Power::Zero, 0.01)] {
-                let found = function.mean_of_positive_part(power);
-                let [lo, hi] = positive_part::mean(0.0, &[0.5, 0.25], off, power);
+    fn a_power_of_a_positive_part_allows_for_all_second_derivatives() {
+        let linear = || monomial::<6>([1, 0, 0], exactly(0.5)) + monomial([0, 1, 0], exactly(0.25));
+        for exponents in [[2, 0, 0], [1, 1, 0], [0, 2, 0]] {
+            let curved = function(linear(), monomial::<15>(exponents, Ball::new(0.0, 0.01)));
+            for power in [Power::Half, Power::Zero] {
+                let found = curved.mean_of_power(power);
+                let [lo, hi] = positive_part::mean(0.0, &[0.5, 0.25], 0.01, power);
                 assert!(
                     found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo),
                     "{power:?} {exponents:?}"
                 );
-                assert!(exact.mean_of_positive_part(power).width() < 1e-14);
+                let exact = function(linear(), Series::<15>::constant(exactly(0.0))).mean_of_power(power);
+                assert!(exact.width() < 1e-14);
             }
         }
     }
 
+    /// All third derivatives add to what a positive part is off, on average.
     #[test]
-    fn balls_meet_unless_they_are_known_to_be_apart() {
-        for (one, other, expected) in [(0.25, 0.5, false), (0.5, 0.5, true), (1.0, 0.25, true), (f64::NAN, 0.0, true)] {
-            assert_eq!(meet(&Ball::new(-1.0, one), &Ball::new(0.0, other)), expected, "{one} {other}");
-            assert_eq!(meet(&Ball::new(0.0, other), &Ball::new(-1.0, one)), expected, "{one} {other}");
+    fn a_positive_part_allows_for_all_third_derivatives() {
+        let curvature = Curved { slopes: [0.5, 0.25, 0.0], curvature: [[0.0, 0.125, 0.0], [0.0; 3], [0.0; 3]], ..Curved::default() };
+        let middle = monomial::<6>([1, 0, 0], exactly(0.5))
+            + monomial([0, 1, 0], exactly(0.25))
+            + monomial([1, 1, 0], exactly(0.125));
+        for (exponents, on_average) in [([3, 0, 0], 0.25), ([2, 1, 0], 1.0 / 6.0), ([0, 3, 0], 0.25)] {
+            let found = function(middle, monomial::<15>(exponents, Ball::new(0.0, 0.01))).mean_of_positive_part();
+            let ([lo, hi], _) = positive_part::mean_of_curved(&curvature, 0.01 * on_average);
+            assert!(found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo), "{exponents:?}: {found:?}");
         }
+        let straight = monomial::<6>([1, 0, 0], exactly(0.5)) + monomial([0, 1, 0], exactly(0.25));
+        let exact = function(straight, Series::<15>::constant(exactly(0.0))).mean_of_positive_part();
+        assert!(exact.width() < 1e-13, "{exact:?}");
     }
 
     #[test]
@@ -325,17 +337,19 @@ mod tests {
         }
     }
 
-    /// Slopes that are known to be within balls add to what a function is off, and so does the value.
+    /// Coefficients that are known to be within balls add to what a function is off, by the means of their terms.
     #[test]
-    fn a_positive_part_allows_for_unknown_slopes() {
-        let slopes = |one: Ball<f64>, other: Ball<f64>| monomial::<6>([1, 0], one) + monomial([0, 1], other);
-        let middle = slopes(Ball::new(0.5, 0.01), Ball::new(0.25, 0.02)) + Jet::constant(Ball::new(0.125, 0.03));
-        let found = Function { middle, whole: slopes(exactly(0.5), exactly(0.25)) }.mean_of_positive_part(Power::One);
-        let [lo, hi] = positive_part::mean(0.125, &[0.5, 0.25], 0.06, Power::One);
+    fn a_positive_part_allows_for_unknown_coefficients() {
+        let slopes = |one: Ball<f64>, other: Ball<f64>| monomial::<6>([1, 0, 0], one) + monomial([0, 1, 0], other);
+        let middle = slopes(Ball::new(0.5, 0.01), Ball::new(0.25, 0.02))
+            + Series::constant(Ball::new(0.125, 0.03))
+            + monomial([1, 1, 0], Ball::new(0.0, 0.04));
+        let found = function(middle, Series::<15>::constant(exactly(0.0))).mean_of_positive_part();
+        let straight = Curved { constant: 0.125, slopes: [0.5, 0.25, 0.0], ..Curved::default() };
+        let ([lo, hi], _) = positive_part::mean_of_curved(&straight, 0.005 + 0.01 + 0.03 + 0.01);
         assert!(found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo), "{found:?}");
         for unknown in [Ball::new(0.5, f64::INFINITY), Ball::new(f64::INFINITY, 0.0)] {
-            let function = Function { middle: Jet::<_, 6>::constant(unknown), whole: Jet::constant(unknown) };
-            let found = function.mean_of_positive_part(Power::One);
+            let found = Function::<6, 15>::constant(unknown).mean_of_positive_part();
             assert_eq!((found.lo, found.hi), (0.0, f64::INFINITY), "{unknown:?}");
         }
     }
@@ -343,9 +357,9 @@ mod tests {
     /// A function that is known to be within a ball about the middle, and its slopes, is within the sum.
     #[test]
     fn values_are_within_the_slopes_of_the_middle() {
-        let wide = |value: f64| Jet::<_, 6>::variable(Ball::new(value, 10.0), Ball::new(0.0, 0.5), 1);
-        let function = Function { middle: Jet::constant(Ball::new(2.0, 0.25)), whole: wide(2.0) }.narrowed();
-        assert_eq!(*function.values().midpoint(), 2.0);
-        assert!((0.75..0.75 + 1e-12).contains(&function.values().radius()), "{:?}", function.values());
+        let wide = Series::<6>::variable(Ball::new(2.0, 10.0), Ball::new(0.0, 0.5), 1);
+        let found = function(Series::<6>::constant(Ball::new(2.0, 0.25)), wide).narrowed();
+        assert_eq!(*found.values().midpoint(), 2.0);
+        assert!((0.75..0.75 + 1e-12).contains(&found.values().radius()), "{:?}", found.values());
     }
 }

@@ -139,22 +139,6 @@ impl<const T: usize> Series<T> {
         degrees
     };
     const PRODUCTS: Products = products::<T>();
-    /// The term with one exponent more, for each variable; `T` if there is none.
-    pub(super) const HIGHER: [[usize; MOST_VARIABLES]; T] = {
-        let mut higher = [[T; MOST_VARIABLES]; T];
-        let mut index = 0;
-        while index < T {
-            let mut variable = 0;
-            while variable < Self::VARIABLES {
-                let mut of = Self::EXPONENTS[index];
-                of[variable] += 1;
-                higher[index][variable] = place::<T>(of);
-                variable += 1;
-            }
-            index += 1;
-        }
-        higher
-    };
     /// Bounds the rounding of a term of a product, in parts of the sum of the sizes: (n + 1) u for n products.
     const ROUNDING: f64 = {
         let (mut most, mut index) = (0, 0);
@@ -170,6 +154,7 @@ impl<const T: usize> Series<T> {
     };
 
     /// A number that depends on no variable.
+    #[inline]
     pub(super) fn constant(value: Ball<f64>) -> Self {
         let mut series = Self { middles: [0.0; T], radii: [0.0; T] };
         series.set(0, value);
@@ -186,6 +171,9 @@ impl<const T: usize> Series<T> {
     /// A series in one variable, of the order 4, as one in variable number `index`.
     pub(super) fn in_variable(series: &Series<5>, index: usize) -> Self {
         let mut found = Self::constant(series.value());
+        if series.is_constant() {
+            return found;
+        }
         let mut exponents = [0; MOST_VARIABLES];
         for power in 1..=Self::ORDER {
             exponents[index] += 1;
@@ -202,6 +190,7 @@ impl<const T: usize> Series<T> {
     }
 
     /// Term number `index`.
+    #[inline]
     pub(super) fn term(&self, index: usize) -> Ball<f64> {
         Ball::new(self.middles[index], self.radii[index])
     }
@@ -212,6 +201,7 @@ impl<const T: usize> Series<T> {
         Self::EXPONENTS.iter().enumerate().filter(move |(_, of)| is_wanted(of)).map(|(index, of)| (of, self.term(index)))
     }
 
+    #[inline]
     pub(super) fn set(&mut self, index: usize, value: Ball<f64>) {
         self.middles[index] = *value.midpoint();
         self.radii[index] = value.radius();
@@ -223,17 +213,20 @@ impl<const T: usize> Series<T> {
     }
 
     /// The same series with another constant term.
+    #[inline]
     pub(super) fn with_constant(mut self, value: Ball<f64>) -> Self {
         self.set(0, value);
         self
     }
 
     /// Whether it depends on no variable.
+    #[inline]
     fn is_constant(&self) -> bool {
         self.middles[1..].iter().chain(&self.radii[1..]).all(|part| *part == 0.0)
     }
 
     /// A result from midpoints and the bounds of what they are off. Nothing is known of a midpoint that left the range of f64.
+    #[inline]
     fn enlarged(middles: [f64; T], errors: [f64; T]) -> Self {
         let mut radii = errors;
         for (radius, middle) in radii.iter_mut().zip(&middles) {
@@ -243,6 +236,7 @@ impl<const T: usize> Series<T> {
     }
 
     /// Every term times `factor`. What is exactly 0 stays so, whatever the factor is.
+    #[inline]
     pub(super) fn scaled(&self, factor: &Ball<f64>) -> Self {
         let (by, off) = (*factor.midpoint(), factor.radius());
         let (near, far) = (off + f64::EPSILON * by.abs(), by.abs() + off);
@@ -269,6 +263,7 @@ impl<const T: usize> Series<T> {
     }
 
     /// As the second factor of a product: the radii with the roundings, and the largest absolute values.
+    #[inline]
     fn factor(&self) -> Factor<T> {
         let (mut radii, mut sizes) = (self.radii, self.radii);
         for index in 0..T {
@@ -357,6 +352,7 @@ impl<const T: usize> Series<T> {
     }
 
     /// Each term times its degree: Σ t ∂/∂t, the derivative along the rays from the constant term.
+    #[inline]
     pub(super) fn along_rays(mut self) -> Self {
         for (index, degree) in Self::DEGREES.iter().enumerate() {
             self.middles[index] *= degree;
@@ -367,6 +363,7 @@ impl<const T: usize> Series<T> {
     }
 
     /// The number of this value whose derivative along the rays is this one.
+    #[inline]
     pub(super) fn from_rays(self, value: Ball<f64>) -> Self {
         let (mut middles, mut errors) = (self.middles, self.radii);
         for index in 1..T {
@@ -391,6 +388,7 @@ impl<const T: usize> Series<T> {
         self.angle(x, &x.times(x).plus(&self.times(self)).reciprocal())
     }
 
+    #[inline]
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = *self;
         for index in 0..T {
@@ -403,6 +401,7 @@ impl<const T: usize> Series<T> {
         sum
     }
 
+    #[inline]
     pub(super) fn minus(&self, other: &Self) -> Self {
         self.plus(&-*other)
     }
@@ -436,5 +435,139 @@ impl<const T: usize> Mul for Series<T> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.times(&other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use numerics::DoubleDouble;
+
+    use super::*;
+
+    /// A number from -1 to 1.
+    fn part(index: usize, square: f64) -> f64 {
+        2.0 * (index as f64 * square.sqrt()).fract() - 1.0
+    }
+
+    /// A formula with all functions, of up to three variables, at a point and its surroundings.
+    fn formula<const T: usize>(at: [f64; 3], slope: f64, radius: f64) -> Series<T> {
+        let variable = |index: usize| {
+            let value = Ball::new(at[index], if index < Series::<T>::VARIABLES { radius } else { 0.0 });
+            if index < Series::<T>::VARIABLES {
+                Series::variable(value, exactly(slope), index)
+            } else {
+                Series::constant(value)
+            }
+        };
+        let [x, y, z] = [0, 1, 2].map(variable);
+        let one = Series::constant(exactly(1.0));
+        let [sin, cos] = (x + y * z).sine_and_cosine();
+        let root = (x * x + y.exp() + one).sqrt();
+        let angle = sin.atan2(&(root + cos)) - root.atan2(&(cos - z));
+        angle * z.times(&(one + y * y).inverse_root()) - cos * root.reciprocal() + (one + one).scaled(&Ball::new(0.3, 0.0))
+    }
+
+    /// The same formula at one point.
+    fn value(at: [f64; 3]) -> f64 {
+        let [x, y, z] = at;
+        let (sin, cos) = (x + y * z).sin_cos();
+        let root = (x * x + y.exp() + 1.0).sqrt();
+        let angle = sin.atan2(root + cos) - root.atan2(cos - z);
+        angle * z / (1.0 + y * y).sqrt() - cos / root + 0.6
+    }
+
+    fn check<const T: usize>(index: usize) {
+        const STEP: f64 = 0.015_625; // 2^-6
+        let at = [part(index, 2.0), part(index, 3.0), part(index, 5.0)];
+        let exact = formula::<T>(at, STEP, 0.0);
+        // The last terms that are left out fall with the power of the step.
+        let order = i32::try_from(Series::<T>::ORDER).unwrap();
+        let whole = formula::<T>(at, STEP, STEP);
+        for number in 0..8 {
+            let t: [f64; 3] = std::array::from_fn(|of| {
+                if of < Series::<T>::VARIABLES { part(8 * index + number, 7.0 + of as f64) } else { 0.0 }
+            });
+            let moved: [f64; 3] = std::array::from_fn(|of| at[of] + t[of] * STEP);
+            let power = |exponents: &Exponents| exponents.iter().zip(t).map(|(of, t)| t.powi((*of).into())).product::<f64>();
+            let sum: f64 = Series::<T>::EXPONENTS.iter().zip(exact.middles).map(|(of, term)| term * power(of)).sum();
+            let allowed = 300.0 * STEP.powi(order + 1);
+            let off = (sum - value(moved)).abs();
+            assert!(off < allowed, "{T} {index}: {off:e} > {allowed:e}");
+            // The series at any point of a cell is within that over the whole of it.
+            let there = formula::<T>(moved, STEP, 0.0);
+            for term in 0..T {
+                let (off, radius) = ((there.middles[term] - whole.middles[term]).abs(), whole.radii[term]);
+                assert!(off <= radius + there.radii[term] && radius < 1.0, "{T} {index} {term}: {off:e} > {radius:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_series_is_that_of_the_formula_and_one_over_a_cell_contains_those_of_its_points() {
+        for index in 1..20 {
+            check::<3>(index);
+            check::<5>(index);
+            check::<6>(index);
+            check::<15>(index);
+            check::<10>(index);
+            check::<20>(index);
+        }
+    }
+
+    /// Every rounding is in the radius, and not many times more: the terms of products of exact numbers against double-double ones.
+    #[test]
+    fn the_radius_of_a_product_is_that_of_its_roundings_and_of_its_factors() {
+        fn check<const T: usize>(index: usize, radius: f64) {
+            let series = |square: f64| Series::<T> {
+                middles: std::array::from_fn(|term| part(index + 7 * term, square)),
+                radii: [radius; T],
+            };
+            let (one, other) = (series(2.0), series(3.0));
+            let found = one.times(&other);
+            for (target, exponents) in Series::<T>::EXPONENTS.iter().enumerate() {
+                let (mut exact, mut sizes, mut error) = (DoubleDouble::ZERO, 0.0, 0.0);
+                for (i, a) in Series::<T>::EXPONENTS.iter().enumerate() {
+                    for (j, b) in Series::<T>::EXPONENTS.iter().enumerate() {
+                        if (0..MOST_VARIABLES).all(|of| a[of] + b[of] == exponents[of]) {
+                            let [x, y] = [one.middles[i], other.middles[j]];
+                            exact = exact + DoubleDouble::from(x) * DoubleDouble::from(y);
+                            sizes += (x * y).abs();
+                            error += (x.abs() + y.abs()) * radius + radius * radius;
+                        }
+                    }
+                }
+                let off = (DoubleDouble::from(found.middles[target]) - exact).hi().abs();
+                let room = found.radii[target] - error;
+                assert!(off <= room + 1e-15 * error, "{T} {target}: {off:e} > {room:e}");
+                assert!(room <= 5.0 * f64::EPSILON * sizes + 1e-14 * error + 1e-300, "{T} {target}: {room:e} of {sizes}");
+            }
+        }
+        for index in 1..20 {
+            for radius in [0.0, 0.25] {
+                check::<3>(index, radius);
+                check::<5>(index, radius);
+                check::<6>(index, radius);
+                check::<15>(index, radius);
+                check::<10>(index, radius);
+                check::<20>(index, radius);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_exactly_0_stays_so_and_what_left_the_range_of_f64_is_unknown() {
+        let variable = Series::<6>::variable(exactly(2.0), exactly(1.0), 1);
+        for unknown in [f64::INFINITY, f64::NAN].map(|radius| Ball::new(0.0, radius)) {
+            for found in [variable.scaled(&unknown), variable * Series::constant(unknown), Series::constant(unknown) * variable] {
+                assert!(!found.radii[0].is_finite() && !found.radii[2].is_finite(), "{found:?}");
+                assert_eq!([1, 3, 4, 5].map(|term| found.term(term)), [exactly(0.0); 4]);
+            }
+        }
+        // A constant keeps no derivative of a root, which may be infinite.
+        assert_eq!(Series::<6>::constant(exactly(0.0)).sqrt(), Series::constant(exactly(0.0).sqrt()));
+        let huge = Series::<3>::variable(exactly(1e200), exactly(1e200), 0);
+        for found in [huge.times(&huge), huge.scaled(&exactly(1e200)), huge.plus(&huge).scaled(&exactly(1e108))] {
+            assert!(found.radii[..2].iter().all(|radius| !radius.is_finite()), "{found:?}");
+        }
     }
 }

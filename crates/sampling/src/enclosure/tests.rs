@@ -1,7 +1,7 @@
 use dynamics::Coin;
-use numerics::Jet;
 
 use super::cell::MOST_DIRECTIONS;
+use super::series::Series;
 use super::*;
 use crate::exact_speed;
 use crate::plan::{Plan, Rest, Scrambled};
@@ -72,10 +72,10 @@ fn mean_of_shares(space: &Space, cell: &Cell<'_>, points: u32) -> f64 {
             let [lo, hi] = cell.interval(index);
             let part = (f64::from((rest % u64::from(points)) as u32) + 0.5) / f64::from(points);
             rest /= u64::from(points);
-            let s = Jet::<_, 3>::constant(Ball::new(lo + part * (hi - lo), 0.0));
-            let (value, density) = direction.at(s);
-            values[direction.of as usize] = value.to_f64();
-            weight *= density.map_or(1.0, |density| density.to_f64());
+            let s = Series::constant(Ball::new(lo + part * (hi - lo), 0.0));
+            let (value, density) = direction.at(&s);
+            values[direction.of as usize] = *value.value().midpoint();
+            weight *= density.map_or(1.0, |density| *density.value().midpoint());
         }
         sum += weight * exact_speed::share(space, space.coin().unwrap(), &values).unwrap().probability;
     }
@@ -389,7 +389,7 @@ fn a_coin_that_hardly_turns_shows_one_face() {
         let found = bounds_in(&problem, &roots(&directions)[0], 1, 0.0);
         assert_eq!((found.lo, found.hi), (share, share), "{tilt}");
         let work = Work { problem, roots: roots(&directions), progress: SILENT.0, stop: SILENT.2 };
-        let (sum, cells) = work.pass(1.0, 1).unwrap();
+        let (sum, cells) = work.pass(&mut work.nothing(), 1.0, (0, 1)).unwrap();
         let room = sum.radius() / f64::EPSILON;
         assert!(
             cells == 1 && sum.midpoint().to_f64() == share && (share..=3.0 * share + 1e-9).contains(&room),
@@ -447,10 +447,10 @@ fn cells_are_counted_and_limited() {
     let report = |cells| reported.lock().unwrap().push(cells);
     let problem = Problem::new(&space, Coin::PAPER, false);
     let work = Work { problem, roots: roots(&directions), progress: &report, stop: SILENT.2 };
-    let (sum, cells) = work.pass(0.5_f64.powi(10), 2047).unwrap();
+    let (sum, cells) = work.pass(&mut work.nothing(), 0.5_f64.powi(10), (0, 2047)).unwrap();
     assert_eq!((sum.midpoint().to_f64(), cells), (0.5, 2047));
     assert_eq!(*reported.lock().unwrap(), [256, 256, 256, 256, 256, 256, 256, 255]);
-    assert!(work.pass(0.5_f64.powi(10), 2046).is_none());
+    assert!(work.pass(&mut work.nothing(), 0.5_f64.powi(10), (0, 2046)).is_none());
 }
 
 #[test]
