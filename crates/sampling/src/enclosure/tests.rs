@@ -464,14 +464,15 @@ fn a_pass_follows_if_it_helps_and_has_enough_cells() {
         // Narrow enough.
         (passes, 0.5, 1, None),
         (passes, 1.0, 1, None),
-        // 0.8 of the width that is wanted, and no less than half, nor than 10^-5.
+        // 0.8 of the width that is wanted, from a twentieth to 0.7 of the last threshold.
         (thousands, 4.0, 1, Some(0.2)),
         (square, 4.0, 1, Some(0.05)),
-        (thousands, 1.25, 1, Some(0.5)),
-        (thousands, 1e9, 1, Some(1e-5)),
+        (thousands, 1.25, 1, Some(0.64)),
+        (thousands, 1.01, 1, Some(0.7)),
+        (thousands, 1e9, 1, Some(0.05)),
         // No more than the fourth part of the cells, and a threshold that leaves it.
         (passes, 2.0, 251, None),
-        (passes, 2.0, 250, Some(0.5)),
+        (passes, 2.0, 250, Some(0.7)),
         (passes, 10.0, 100, Some(0.4)),
         (Passes { power: 2.0, ..passes }, 100.0, 100, Some(0.16)),
         // A width that is not clearly narrower asks for far smaller cells, but not again and again.
