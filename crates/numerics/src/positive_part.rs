@@ -58,7 +58,8 @@ struct Positive {
 impl Curved {
     /// Whether all coefficients are finite.
     pub fn is_finite(&self) -> bool {
-        self.constant.is_finite() && self.slopes.iter().chain(self.curvature.as_flattened()).all(|part| part.is_finite())
+        self.constant.is_finite()
+            && self.slopes.iter().chain(self.curvature.as_flattened()).all(|part| part.is_finite())
     }
 
     /// A bound of the part of the second degree, but for roundings: the sum of the sizes of its coefficients.
@@ -97,7 +98,8 @@ pub fn mean_of_curved(of: &Curved, off: f64) -> ([f64; 2], f64) {
     let error = (error + off + rounding * (of.constant.abs() + 3.0 * largest + sizes)) * (1.0 + rounding);
     let [lo, hi] = [middle - error, middle + error + bent];
     // Nothing is known if a part left the range of f64.
-    let ends = if lo.is_finite() && hi.is_finite() { [lo.next_down().max(0.0), hi.next_up()] } else { [0.0, f64::INFINITY] };
+    let ends =
+        if lo.is_finite() && hi.is_finite() { [lo.next_down().max(0.0), hi.next_up()] } else { [0.0, f64::INFINITY] };
     (ends, bent)
 }
 
@@ -127,7 +129,8 @@ impl Curved {
         let [mut all, mut first, mut second] = [0.0; 3];
         let (mut at_one, mut at_two) = ([0.0; MOST_VARIABLES], [[0.0; MOST_VARIABLES]; MOST_VARIABLES]);
         for corner in 0..1_u32 << n {
-            let at: [f64; MOST_VARIABLES] = std::array::from_fn(|index| if corner >> index & 1 == 1 { -1.0 } else { 1.0 });
+            let at: [f64; MOST_VARIABLES] =
+                std::array::from_fn(|index| if corner >> index & 1 == 1 { -1.0 } else { 1.0 });
             let value = slopes.iter().zip(at).fold(self.constant, |value, (slope, at)| value + at * slope).max(0.0);
             let sign = if corner.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
             let powers = (1..=n).fold(sign, |power, index| power * value / index as f64);
@@ -165,7 +168,8 @@ impl Curved {
             for j in i + 1..n {
                 let other = slopes[j];
                 let product = at_two[i][j] - at_one[i] / other - at_one[j] / slope + second / (slope * other);
-                let off = all_off + first_off / other.abs() + first_off / slope.abs() + second_off / (slope * other).abs();
+                let off =
+                    all_off + first_off / other.abs() + first_off / slope.abs() + second_off / (slope * other).abs();
                 found.products[kept[i]][kept[j]] = within(product, off, [-0.25, 0.25]);
             }
         }
@@ -395,7 +399,8 @@ mod tests {
     fn means_where_slopes_are_unlike_have_bounds_of_their_roundings() {
         for small in [0.5, 0.1, 0.01, 0.0015] {
             let of = curved(0.1, [1.0, small, 1.7 * small], [0.0; 4]);
-            let [all, first, both] = [[true; 3], [true, false, false], [true, true, false]].map(|kept| of.where_positive(&kept));
+            let [all, first, both] =
+                [[true; 3], [true, false, false], [true, true, false]].map(|kept| of.where_positive(&kept));
             // Without the small slopes the plane moves by them at most.
             for (other, moved) in [(&first, 2.7 * small), (&both, 1.7 * small)] {
                 for i in 0..3 {

@@ -283,7 +283,11 @@ fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
 enum Known {
     Nothing,
     /// Bounds of its mean, and the direction in which it would be halved, if it can be.
-    Bounds { lo: f64, hi: f64, next: Option<u8> },
+    Bounds {
+        lo: f64,
+        hi: f64,
+        next: Option<u8>,
+    },
     /// Its halves in this direction.
     Halves(u8, Box<[Known; 2]>),
 }
@@ -310,7 +314,12 @@ impl<'a> Work<'a> {
 
     /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`, and how many
     /// cells were looked at with those of the passes `before`; `None` if these are more than `most`.
-    fn pass(&self, known: &mut [Known], threshold: f64, (before, most): (u64, u64)) -> Option<(Ball<DoubleDouble>, u64)> {
+    fn pass(
+        &self,
+        known: &mut [Known],
+        threshold: f64,
+        (before, most): (u64, u64),
+    ) -> Option<(Ball<DoubleDouble>, u64)> {
         let (count, nothing) = (Count { done: AtomicU64::new(0), before, most }, Ball::new(DoubleDouble::ZERO, 0.0));
         let mut sums = self.roots.iter().zip(known).map(|(root, known)| self.sum(root, known, threshold, &count));
         let sum = sums.try_fold(nothing, |sum, part| Some(sum + part?))?;

@@ -6,7 +6,9 @@
 //! An outcome needs more than a small error, because the integrator decides it by its own error estimate: this has to be
 //! within the accuracy, too.
 
-use dynamics::{Attitude, Error, InputError, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss};
+use dynamics::{
+    Attitude, Error, InputError, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
+};
 use exact::ExactSolver;
 use exact::motion::COS_TILT_ERROR;
 
@@ -120,7 +122,9 @@ enum Reference {
 
 fn reference(want: &Want) -> Result<Reference, Error> {
     Ok(match want {
-        Want::Trace { toss, points } => Reference::Trace(attitudes(&ExactSolver, toss, *points)?.collect::<Result<_, _>>()?),
+        Want::Trace { toss, points } => {
+            Reference::Trace(attitudes(&ExactSolver, toss, *points)?.collect::<Result<_, _>>()?)
+        }
         want => Reference::Answer(values(&ExactSolver, want)?),
     })
 }
@@ -170,7 +174,13 @@ enum Flown {
     IsOffBy(f64),
 }
 
-fn flown(scene: &Scene, exact: &Reference, entry: &SolverEntry, scheme: Scheme, tolerance: f64) -> Result<Flown, Error> {
+fn flown(
+    scene: &Scene,
+    exact: &Reference,
+    entry: &SolverEntry,
+    scheme: Scheme,
+    tolerance: f64,
+) -> Result<Flown, Error> {
     let stepping = Stepping::adaptive(scheme, tolerance)?;
     let solver = solver(entry, stepping)?;
     let mut error = distance(solver.as_ref(), &scene.want, exact)?;

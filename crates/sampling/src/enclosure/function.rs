@@ -24,7 +24,11 @@ impl Bounds {
     }
 
     fn of_ball(ball: &Ball<f64>, by: [f64; MOST_DIRECTIONS]) -> Self {
-        Self { lo: lower(ball), hi: upper(ball), by }
+        let [lo, hi] = [lower(ball), upper(ball)];
+        if lo.is_nan() || hi.is_nan() {
+            return Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY, by };
+        }
+        Self { lo, hi, by }
     }
 
     /// The sum with a multiple `sign` = ±1 of other bounds.
@@ -313,7 +317,11 @@ mod tests {
     /// All third derivatives add to what a positive part is off, on average.
     #[test]
     fn a_positive_part_allows_for_all_third_derivatives() {
-        let curvature = Curved { slopes: [0.5, 0.25, 0.0], curvature: [[0.0, 0.125, 0.0], [0.0; 3], [0.0; 3]], ..Curved::default() };
+        let curvature = Curved {
+            slopes: [0.5, 0.25, 0.0],
+            curvature: [[0.0, 0.125, 0.0], [0.0; 3], [0.0; 3]],
+            ..Curved::default()
+        };
         let middle = monomial::<6>([1, 0, 0], exactly(0.5))
             + monomial([0, 1, 0], exactly(0.25))
             + monomial([1, 1, 0], exactly(0.125));

@@ -359,8 +359,10 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
             room.times(&mean.along_rays()).minus(&half.times(&room.along_rays()))
         }
         let mean = &self.motion.mean;
-        let turned =
-            Function { middle: turned(&squared_room.middle, &mean.middle), whole: turned(&squared_room.whole, &mean.whole) };
+        let turned = Function {
+            middle: turned(&squared_room.middle, &mean.middle),
+            whole: turned(&squared_room.whole, &mean.whole),
+        };
         let slope = turned.times(&squared_room.inverse_root()).times(inverse);
         let value = |room: Ball<f64>, mean: Ball<f64>| room.sqrt().atan2(&-mean);
         Function {
@@ -521,10 +523,8 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
         }
         let factor = span.of_order_2().reciprocal().scaled(&exactly(2.0 * number));
         let factor = self.weight.map_or(factor, |weight| factor.times(&weight.of_order_2()));
-        let squared = Function {
-            middle: squared_angle_of_root(&ratio.middle),
-            whole: squared_angle_of_root(&ratio.whole),
-        };
+        let squared =
+            Function { middle: squared_angle_of_root(&ratio.middle), whole: squared_angle_of_root(&ratio.whole) };
         let narrow = squared.times(&factor.times(&factor)).mean_of_power(Power::Half);
         Some(if is_heads { self.weight().plus(-1.0, narrow) } else { narrow })
     }

@@ -103,20 +103,18 @@ fn cells(directions: &[Vec<Direction>], index: u32) -> Vec<Cell<'_>> {
 fn assert_contains(space: &Space, index: u32, roundings: f64) -> [u32; 2] {
     let (directions, _) = directions_of(space);
     let problem = Problem::new(space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
-    let points = [512, 48, 12][directions.len() - 1];
+    let points = [8192, 80, 18][directions.len() - 1];
     let [mut number, mut told] = [0; 2];
     for cell in cells(&directions, index) {
         let found = bounds_in(&problem, &cell, directions.len(), 0.0);
-        // By series of more terms, too.
-        let finer = bounds_in(&problem, &cell, directions.len(), 0.01 * found.width());
-        let [rough, fine] = [points / 2, points].map(|points| mean_of_shares(space, &cell, points));
-        let slack = 2.0 * (rough - fine).abs() + roundings;
-        for found in [found, finer] {
-            assert!(
-                found.lo - slack <= fine && fine <= found.hi + slack,
-                "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
-            );
-        }
+        let [rough, other, fine] =
+            [points / 2, 7 * points / 10, points].map(|points| mean_of_shares(space, &cell, points));
+        // Two numbers of points alone may agree by chance.
+        let slack = 2.0 * (rough - fine).abs().max((other - fine).abs()) + roundings;
+        assert!(
+            found.lo - slack <= fine && fine <= found.hi + slack,
+            "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
+        );
         number += 1;
         told += u32::from(slack < 0.2 * found.width() && found.width() < 0.1);
     }
@@ -248,23 +246,25 @@ fn assert_as_many_cells_as_there_were(are_many: bool) {
     };
     let accuracies = [[1e-3, 1e-5, 1e-6], [1e-2, 1e-3, 1e-4], [1e-4, 1e-6, 1e-7], [3e-2, 1e-2, 4e-3]];
     let expected = [
-        [11, 25, 47],
+        [7, 13, 17],
         [1, 1, 1],
-        [831, 4795, 11011],
-        [197, 227, 277],
+        [297, 1605, 3695],
+        [139, 145, 153],
         [1, 1, 1],
-        [63, 87, 283],
-        [7, 59, 87],
+        [43, 43, 67],
+        [3, 5, 15],
         [1, 1, 1],
-        [1611, 9223, 20635],
+        [775, 3361, 6215],
     ];
     // Sines that are rounded otherwise may halve a cell more.
     let cases = expected.into_iter().zip(spaces().zip(accuracies.into_iter().cycle()));
-    for (expected, case) in cases.filter(|(expected, _)| (expected[2] > 300) == are_many) {
-        let found = cells(case);
-        let is_near = |(found, expected): (u64, u64)| found.abs_diff(expected) <= 2 + expected / 50;
-        assert!(found.into_iter().zip(expected).all(is_near), "{found:?}, not {expected:?}");
-    }
+    let is_near = |(found, expected): (u64, u64)| found.abs_diff(expected) <= 2 + expected / 50;
+    let found: Vec<([u64; 3], [u64; 3])> = cases
+        .filter(|(expected, _)| (expected[2] > 300) == are_many)
+        .map(|(expected, case)| (cells(case), expected))
+        .collect();
+    let is_as_before = found.iter().all(|(found, expected)| found.iter().copied().zip(*expected).all(is_near));
+    assert!(is_as_before, "found and expected: {found:?}");
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn the_usual_accuracy_is_reached_soon() {
     ] {
         let space = space.build().unwrap();
         let found = estimate(SILENT, &space, usual_accuracy(&space), most_cells).unwrap();
-        assert!(found.points > 50, "{space:?}: {}", found.points);
+        assert!(found.points > 20, "{space:?}: {}", found.points);
     }
 }
 
