@@ -113,7 +113,7 @@ pub fn trace_points<'a>(
     Ok(until_error(times.of(&toss.launch)?.into_iter().map(move |time| flown.at(time))))
 }
 
-/// The attitudes (BF to LF) of [`trace`], each computed when it is asked for. Without Euler angles they take a third of the time.
+/// The attitudes (BF to LF) of [`trace`], each computed when it is asked for. Without Euler angles they take little more than half the time.
 ///
 /// # Errors
 /// As [`trace_points`].
