@@ -282,7 +282,7 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
         }
         let Motion { squared, room, mean, cosine, sine, .. } = &self.motion;
         let scale = magnitude(&squared.middle.value());
-        let of_cosine = [room, mean, cosine, sine].map(|part| part.variation());
+        let of_cosine = [room, mean, cosine, sine].map(Function::variation);
         let changes = std::array::from_fn(|index| of_cosine.iter().map(|by| by[index]).sum::<f64>() / scale);
         if is_known(&changes) {
             return changes;
@@ -366,14 +366,14 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
         let slope = turned.times(&squared_room.inverse_root()).times(inverse);
         let value = |room: Ball<f64>, mean: Ball<f64>| room.sqrt().atan2(&-mean);
         Function {
-            middle: slope.middle.from_rays(value(squared_room.middle.value(), mean.middle.value())),
-            whole: slope.whole.from_rays(value(squared_room.values(), mean.values())),
+            middle: slope.middle.integrated_along_rays(value(squared_room.middle.value(), mean.middle.value())),
+            whole: slope.whole.integrated_along_rays(value(squared_room.values(), mean.values())),
         }
         .narrowed()
     }
 
     /// Both landings as phases from the crest.
-    fn from_crest(&self, crest: &Function<T, F>) -> [Function<T, F>; 2] {
+    fn phases_from_crest(&self, crest: &Function<T, F>) -> [Function<T, F>; 2] {
         self.motion.phases.each_ref().map(|phase| phase.minus(crest).narrowed())
     }
 
@@ -381,7 +381,7 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
     fn with_edges(&self) -> Bounds {
         let edge = self.edge();
         let half_width = self.half_width(&edge);
-        let from_crest = self.from_crest(&self.crest(&edge[1]));
+        let from_crest = self.phases_from_crest(&self.crest(&edge[1]));
         let turns = from_crest.each_ref().map(turns);
         let landings: [_; 2] = std::array::from_fn(|end| from_crest[end].shifted(-turned(turns[end])));
         let places = landings.each_ref().map(|landing| place(landing, &half_width));
@@ -476,7 +476,7 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
     /// The same where nothing is known of the half-width.
     fn of_any_half_width(&self) -> Bounds {
         let [_, inverse] = self.edge();
-        self.of_unknown_half_width([0.0, PI], &self.from_crest(&self.crest(&inverse)))
+        self.of_unknown_half_width([0.0, PI], &self.phases_from_crest(&self.crest(&inverse)))
     }
 
     /// The motion may graze cos θ = 0 in the cell: the intervals of one face, tails or heads, are narrow and vanish. `None` if
@@ -497,7 +497,7 @@ impl<const T: usize, const F: usize> Means<'_, '_, T, F> {
             return None;
         }
         let [narrowest, widest] = narrow_half_widths(ratios);
-        let from_crest = self.from_crest(&self.crest(&inverse));
+        let from_crest = self.phases_from_crest(&self.crest(&inverse));
         let crude = || {
             let heads =
                 if is_heads { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };

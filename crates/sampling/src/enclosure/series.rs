@@ -372,7 +372,7 @@ impl<const T: usize> Series<T> {
 
     /// The number of this value whose derivative along the rays is this one.
     #[inline]
-    pub(super) fn from_rays(self, value: Ball<f64>) -> Self {
+    pub(super) fn integrated_along_rays(self, value: Ball<f64>) -> Self {
         let (mut middles, mut errors) = (self.middles, self.radii);
         for index in 1..T {
             middles[index] /= Self::DEGREES[index];
@@ -385,7 +385,7 @@ impl<const T: usize> Series<T> {
     /// angle, (x y' - y x')/(x² + y²), with the inverse of the square of the radius, `inverse`.
     pub(super) fn angle(&self, x: &Self, inverse: &Self) -> Self {
         let turned = x.times(&self.along_rays()).minus(&self.times(&x.along_rays()));
-        turned.times(inverse).from_rays(self.value().atan2(&x.value()))
+        turned.times(inverse).integrated_along_rays(self.value().atan2(&x.value()))
     }
 
     /// The angle of the point (`x`, `self`).
