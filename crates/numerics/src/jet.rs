@@ -1,4 +1,4 @@
-//! Truncated Taylor series in one to three variables. A formula evaluated in them gives its own partial derivatives; over
+//! Truncated Taylor series in one or three variables. A formula evaluated in them gives its own partial derivatives; over
 //! [balls](crate::Ball) that contain a whole box, it bounds the derivatives within the box, and so the remainder of the
 //! series about its middle.
 //!
@@ -14,88 +14,24 @@ use crate::number::Number;
 /// The largest number of variables.
 pub const MOST_VARIABLES: usize = 3;
 
-/// The largest number of terms, of series of order 4 in three variables.
-const MOST_TERMS: usize = 35;
-
-/// The largest number of products of two terms, neither of which is the constant one, that are kept in a product of series.
-const MOST_PRODUCTS: usize = 141;
-
-/// The exponents of the variables in one term.
-pub type Exponents = [u8; MOST_VARIABLES];
-
-/// The number of variables and the order of a series with this many terms. No two of them have as many.
+/// The number of variables and the order of a series with this many terms.
 const fn shape(terms: usize) -> (usize, usize) {
     match terms {
-        3 => (1, 2),
-        4 => (3, 1),
+        4 => (MOST_VARIABLES, 1),
         5 => (1, 4),
-        6 => (2, 2),
-        15 => (2, 4),
-        10 => (3, 2),
-        35 => (3, 4),
-        _ => panic!("a series has one to three variables, and the order 2 or 4, or three and the order 1"),
+        _ => panic!("a series has 4 terms, of order 1 in three variables, or 5, of order 4 in one"),
     }
 }
 
-/// The exponents of all terms, by ascending degree: first the constant, then the variables.
-const fn exponents(terms: usize) -> [Exponents; MOST_TERMS] {
-    let (variables, order) = shape(terms);
-    let mut all = [[0; MOST_VARIABLES]; MOST_TERMS];
-    let (mut next, mut of_degree) = (0, 0);
-    while of_degree <= order {
-        let mut first = of_degree + 1;
-        while first > 0 {
-            first -= 1;
-            let mut second = of_degree - first + 1;
-            while second > 0 {
-                second -= 1;
-                let third = of_degree - first - second;
-                if (variables > 1 || second == 0) && (variables > 2 || third == 0) {
-                    all[next] = [first as u8, second as u8, third as u8];
-                    next += 1;
-                }
-            }
-        }
-        of_degree += 1;
-    }
-    assert!(next == terms);
-    all
-}
+/// The pairs of terms of which each term of a product of two series in one variable is made, one after another, but for those with
+/// the constant term; and where those of each term end.
+const PAIRS: [[u8; 2]; 6] = [[1, 1], [1, 2], [2, 1], [1, 3], [2, 2], [3, 1]];
+const ENDS: [usize; 5] = [0, 0, 1, 3, 6];
 
-/// For each term of a product of two series the pairs of their terms that it is made of, one after another, but for those with a
-/// constant term.
-struct Products {
-    pairs: [[u8; 2]; MOST_PRODUCTS],
-    /// Where the pairs of each term end.
-    ends: [usize; MOST_TERMS],
-}
+/// Of order 1 there are none.
+const NO_ENDS: [usize; 4] = [0; 4];
 
-const fn products(terms: usize) -> Products {
-    let all = exponents(terms);
-    let mut found = Products { pairs: [[0; 2]; MOST_PRODUCTS], ends: [0; MOST_TERMS] };
-    let (mut next, mut target) = (0, 0);
-    while target < terms {
-        let mut one = 1;
-        while one < terms {
-            let mut other = 1;
-            while other < terms {
-                let (a, b, sum) = (all[one], all[other], all[target]);
-                if a[0] + b[0] == sum[0] && a[1] + b[1] == sum[1] && a[2] + b[2] == sum[2] {
-                    found.pairs[next] = [one as u8, other as u8];
-                    next += 1;
-                }
-                other += 1;
-            }
-            one += 1;
-        }
-        found.ends[target] = next;
-        target += 1;
-    }
-    found
-}
-
-/// A Taylor series with `TERMS` terms: 3, 6 or 10 of order 2 in one, two or three variables; 5, 15 or 35 of order 4; 4 of
-/// order 1 in three variables.
+/// A Taylor series with `TERMS` terms, by ascending degree: 4 of order 1 in three variables, or 5 of order 4 in one.
 ///
 /// Decisions are made by the constant term: [`Elementary::to_f64`] and the like ignore the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,8 +44,6 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
     pub const VARIABLES: usize = shape(TERMS).0;
     /// The degree of the last terms.
     pub const ORDER: usize = shape(TERMS).1;
-    const EXPONENTS: [Exponents; MOST_TERMS] = exponents(TERMS);
-    const PRODUCTS: Products = products(TERMS);
 
     /// A number that depends on no variable.
     pub fn constant(value: N) -> Self {
@@ -126,21 +60,9 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         jet
     }
 
-    /// A series in one variable, of the same order or a higher one, as one in variable number `index`.
-    pub fn in_variable<const U: usize>(series: &Jet<N, U>, index: usize) -> Self {
-        debug_assert!(Jet::<N, U>::VARIABLES == 1 && index < Self::VARIABLES);
-        let mut jet = Self::constant(series.terms[0].clone());
-        for (term, exponents) in jet.terms.iter_mut().zip(&Self::EXPONENTS).skip(1) {
-            if exponents.iter().sum::<u8>() == exponents[index] {
-                *term = series.terms[usize::from(exponents[index])].clone();
-            }
-        }
-        jet
-    }
-
-    /// The terms with the exponents of their variables: first the constant, then the variables in their order.
-    pub fn terms(&self) -> impl Iterator<Item = (&Exponents, &N)> {
-        Self::EXPONENTS.iter().zip(&self.terms)
+    /// The terms: first the constant, then the variables in their order, or the powers of the only one.
+    pub fn terms(&self) -> impl Iterator<Item = &N> {
+        self.terms.iter()
     }
 
     /// The constant term.
@@ -216,7 +138,7 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         if self.is_constant() {
             return other.clone().scaled(&self.terms[0]);
         }
-        let Products { pairs, ends } = &Self::PRODUCTS;
+        let (pairs, ends): (&[_], &[_]) = if Self::VARIABLES == 1 { (&PAIRS, &ENDS) } else { (&[], &NO_ENDS) };
         Self { terms: N::product_of_series(&self.terms, &other.terms, pairs, ends) }
     }
 
@@ -388,7 +310,6 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
     }
 
     fn bound(&self) -> f64 {
-        // Each of up to 35 sums is rounded.
         self.terms.iter().map(N::bound).sum::<f64>() * (1.0 + 64.0 * f64::EPSILON)
     }
 }
@@ -430,14 +351,10 @@ mod tests {
                 formula(moved)
             };
             let series = |steps: f64| {
-                found.terms().fold(number(0.0), |sum, (exponents, term)| {
-                    let power: f64 = exponents
-                        .iter()
-                        .zip(direction)
-                        .map(|(exponent, part)| (part * steps * STEP).powi((*exponent).into()))
-                        .product();
-                    sum + *term * number(power)
-                })
+                let along = |index: usize| direction[index] * steps * STEP;
+                let power = |index: usize| if variables == 1 { along(0).powi(index as i32) } else { along(index - 1) };
+                let parts = found.terms().enumerate().skip(1).map(|(index, term)| *term * number(power(index)));
+                parts.fold(*found.value(), |sum, part| sum + part)
             };
             // What is left is the next term, which falls with the power of the step.
             let order = i32::try_from(Jet::<DoubleDouble, TERMS>::ORDER).unwrap();
@@ -452,20 +369,15 @@ mod tests {
     #[test]
     fn a_series_is_that_of_the_formula_in_any_direction() {
         for at in [[0.3, -0.4, 0.7], [-1.1, 0.2, -0.5], [0.9, 0.8, 1.3]] {
-            check::<3>(at);
             check::<4>(at);
             check::<5>(at);
-            check::<6>(at);
-            check::<15>(at);
-            check::<10>(at);
-            check::<35>(at);
         }
     }
 
     #[test]
     fn a_constant_keeps_no_infinite_derivative_and_a_constant_term_is_the_number() {
-        assert_eq!(Jet::<f64, 6>::constant(0.0).sqrt(), Jet::constant(0.0));
-        let jet = Jet::<f64, 3>::variable(4.0, 2.0, 0);
+        assert_eq!(Jet::<f64, 5>::constant(0.0).sqrt(), Jet::constant(0.0));
+        let jet = Jet::<f64, 5>::variable(4.0, 2.0, 0);
         assert_eq!((*jet.value(), jet.slopes(), jet.to_f64()), (4.0, &[2.0][..], 4.0));
         assert_eq!(*jet.with_constant(1.0).value(), 1.0);
         assert_eq!(jet.reciprocal().slopes(), [-0.125]);
@@ -474,17 +386,17 @@ mod tests {
     #[test]
     fn what_is_exactly_0_stays_so_whatever_it_is_multiplied_with() {
         let [two, one] = [2.0, 1.0].map(|value| Ball::new(value, 0.0));
-        let variable = Jet::<_, 6>::variable(two, one, 1);
+        let variable = Jet::<_, 4>::variable(two, one, 1);
         let [unknown, zero] = [f64::INFINITY, 0.0].map(|radius| Ball::new(0.0, radius));
         for found in [variable.scaled(&unknown), variable * Jet::constant(unknown), Jet::constant(unknown) * variable] {
             let radii: Vec<_> =
-                found.terms().map(|(_, term)| Some(term.radius()).filter(|radius| radius.is_finite())).collect();
-            assert_eq!(radii, [None, Some(0.0), None, Some(0.0), Some(0.0), Some(0.0)]);
+                found.terms().map(|term| Some(term.radius()).filter(|radius| radius.is_finite())).collect();
+            assert_eq!(radii, [None, Some(0.0), None, Some(0.0)]);
         }
         // A number that is 0 within its error is none that is 0.
-        let near = Jet::<_, 3>::variable(one, Ball::new(0.0, 0.5), 0);
+        let near = Jet::<_, 5>::variable(one, Ball::new(0.0, 0.5), 0);
         assert!(near.scaled(&two).slopes()[0].radius() >= 1.0 && (near * near).slopes()[0].radius() >= 1.0);
-        assert_eq!(Jet::<_, 3>::variable(one, zero, 0).sqrt().slopes(), [zero]);
+        assert_eq!(Jet::<_, 5>::variable(one, zero, 0).sqrt().slopes(), [zero]);
         let root = Jet::<_, 4>::variable(one, Ball::new(0.0, 0.5), 2).sqrt();
         assert!(root.slopes()[..2] == [zero; 2] && (0.25..0.26).contains(&root.slopes()[2].radius()), "{root:?}");
     }

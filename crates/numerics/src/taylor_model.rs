@@ -41,7 +41,7 @@ impl<N: Elementary> TaylorModel<N> {
     pub fn polynomial(&self) -> ([f64; TERMS], f64) {
         let mut polynomial = [0.0; TERMS];
         let mut error = 0.0;
-        for (coefficient, (_, term)) in polynomial.iter_mut().zip(self.0.terms()) {
+        for (coefficient, term) in polynomial.iter_mut().zip(self.0.terms()) {
             *coefficient = term.to_f64();
             error += term.error() + f64::EPSILON * coefficient.abs() + f64::MIN_POSITIVE;
         }
@@ -50,7 +50,7 @@ impl<N: Elementary> TaylorModel<N> {
 
     /// How far the value can be from that at x = 0.
     fn change(&self) -> f64 {
-        self.0.terms().skip(1).map(|(_, term)| term.bound()).sum::<f64>() * GROWN
+        self.0.terms().skip(1).map(N::bound).sum::<f64>() * GROWN
     }
 
     /// The function of this number with these Taylor coefficients at the constant term, and the part of the remainder that
@@ -110,7 +110,7 @@ impl<N: Elementary> Mul for TaylorModel<N> {
         }
         let bounds = |jet: &Jet<N, TERMS>| {
             let mut bounds = [0.0; TERMS];
-            bounds.iter_mut().zip(jet.terms()).for_each(|(bound, (_, term))| *bound = term.bound());
+            bounds.iter_mut().zip(jet.terms()).for_each(|(bound, term)| *bound = term.bound());
             bounds
         };
         let [one, two] = [&self.0, &other.0].map(bounds);
@@ -245,7 +245,7 @@ mod tests {
                 let x = f64::from(step) / 20.0;
                 let exact = formula(&DoubleDouble::from(0.3 + width * x)).hi();
                 let (mut sum, mut error) = (0.0, 0.0);
-                for (index, (_, term)) in model.0.terms().enumerate() {
+                for (index, term) in model.0.terms().enumerate() {
                     let power = x.powi(i32::try_from(index).unwrap());
                     sum += term.to_f64() * power;
                     error += term.error() * power.abs();

@@ -6,13 +6,14 @@
 //! bounded, too. `docs/proofs/probability.md` has the theorem.
 //!
 //! A cell is halved while its bounds differ by more than a threshold; then the threshold is lowered, until the sum of all
-//! cells is as narrow as was asked for. Neither the cells nor their sum depend on the number of threads.
+//! cells is as narrow as was asked for. What is known of a cell is kept, some 32 bytes. Neither the cells nor their sum depend on the number of threads.
 
 mod cell;
 mod directions;
 mod function;
 mod means;
 mod roots;
+mod series;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -158,6 +159,7 @@ fn enclosed(
     let left_out = left_out(space, roundings);
     let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress, stop };
     let mut best: Option<Enclosure> = None;
+    let (mut known, mut done) = (work.nothing(), 0);
     // A first threshold from which few cells result, and lower ones as the last width asks for.
     let mut passes = Passes {
         goal: 2.0 * accuracy,
@@ -168,8 +170,10 @@ fn enclosed(
     };
     loop {
         let is_first = best.is_none() && passes.threshold < 1.0;
-        let found = work.pass(passes.threshold, if is_first { most_cells.min(FIRST_PASS) } else { most_cells });
+        let most = if is_first { most_cells.min(FIRST_PASS) } else { most_cells };
+        let found = work.pass(&mut known, passes.threshold, (done, most));
         if found.is_none() && is_first && FIRST_PASS < most_cells {
+            known = work.nothing();
             passes.threshold *= 16.0;
             continue;
         }
@@ -177,6 +181,7 @@ fn enclosed(
             let interval = best.map_or(Interval { lo: 0.0, hi: 1.0 }, |best| best.interval);
             return Enclosure { interval, cells: most_cells };
         };
+        done = cells;
         let interval = ends(&sum.widened(left_out));
         let now = interval.width();
         let narrower = best.filter(|best| best.interval.width() <= now);
@@ -235,7 +240,7 @@ impl Passes {
         }
         let wanted = 0.8 * (self.goal / now).powf(self.power);
         let affordable = (self.most_cells as f64 / (LAST_PASS * cells) as f64).powf(-self.power);
-        self.threshold *= wanted.max(affordable).clamp(1e-5, if is_narrower { 0.5 } else { 0.05 });
+        self.threshold *= wanted.max(affordable).clamp(0.05, if is_narrower { 0.7 } else { 0.05 });
         true
     }
 
@@ -274,12 +279,17 @@ fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
     chosen.into_iter().map(Cell::whole).collect()
 }
 
-/// What a cell gives.
-enum Step<'a> {
-    /// Its mean times its volume.
-    Part(Ball<DoubleDouble>),
-    /// The halves that are to be looked at instead.
-    Halves(Box<[Cell<'a>; 2]>),
+/// What is known of a cell. A pass goes on with what the passes before it found.
+enum Known {
+    Nothing,
+    /// Bounds of its mean, and the direction in which it would be halved, if it can be.
+    Bounds {
+        lo: f64,
+        hi: f64,
+        next: Option<u8>,
+    },
+    /// Its halves in this direction.
+    Halves(u8, Box<[Known; 2]>),
 }
 
 struct Work<'a> {
@@ -289,77 +299,90 @@ struct Work<'a> {
     stop: Stop<'a>,
 }
 
-/// Cells that were looked at, and how many may be.
+/// Cells that were looked at in a pass, those before it, and how many may be.
 struct Count {
     done: AtomicU64,
+    before: u64,
     most: u64,
 }
 
 impl<'a> Work<'a> {
-    /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`; `None` if that
-    /// takes more than `most` cells.
-    fn pass(&self, threshold: f64, most: u64) -> Option<(Ball<DoubleDouble>, u64)> {
-        let (count, nothing) = (Count { done: AtomicU64::new(0), most }, Ball::new(DoubleDouble::ZERO, 0.0));
-        let mut sums = self.roots.iter().map(|root| self.sum(root, threshold, &count));
+    /// What is known of the roots before the first pass.
+    fn nothing(&self) -> Vec<Known> {
+        self.roots.iter().map(|_| Known::Nothing).collect()
+    }
+
+    /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`, and how many
+    /// cells were looked at with those of the passes `before`; `None` if these are more than `most`.
+    fn pass(
+        &self,
+        known: &mut [Known],
+        threshold: f64,
+        (before, most): (u64, u64),
+    ) -> Option<(Ball<DoubleDouble>, u64)> {
+        let (count, nothing) = (Count { done: AtomicU64::new(0), before, most }, Ball::new(DoubleDouble::ZERO, 0.0));
+        let mut sums = self.roots.iter().zip(known).map(|(root, known)| self.sum(root, known, threshold, &count));
         let sum = sums.try_fold(nothing, |sum, part| Some(sum + part?))?;
         let cells = count.done.into_inner();
         (self.progress)(cells % REPORTED);
-        Some((sum, cells))
+        Some((sum, before + cells))
     }
 
     /// The sum over a cell. Its halves are given to two threads, wherever they are, and added in their order. After a stop no
     /// cell is halved any more.
-    fn sum(&self, cell: &Cell<'a>, threshold: f64, count: &Count) -> Option<Ball<DoubleDouble>> {
-        let done = count.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done > count.most {
-            return None;
+    fn sum(&self, cell: &Cell<'a>, known: &mut Known, threshold: f64, count: &Count) -> Option<Ball<DoubleDouble>> {
+        let volume = (-f64::from(cell.halvings())).exp2();
+        if matches!(known, Known::Nothing) {
+            let done = count.done.fetch_add(1, Ordering::Relaxed) + 1;
+            if count.before + done > count.most {
+                return None;
+            }
+            if done.is_multiple_of(REPORTED) {
+                (self.progress)(REPORTED);
+            }
+            let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), threshold / volume);
+            *known = Known::Bounds { lo: found.lo, hi: found.hi, next: direction(cell, &found) };
         }
-        if done.is_multiple_of(REPORTED) {
-            (self.progress)(REPORTED);
-        }
-        match self.step(cell, if (self.stop)() { f64::INFINITY } else { threshold }) {
-            Step::Part(part) => Some(part),
-            Step::Halves(halves) => {
-                let [one, other] = halves.each_ref().map(|half| || self.sum(half, threshold, count));
-                #[cfg(feature = "rayon")]
-                let (one, other) = rayon::join(one, other);
-                #[cfg(not(feature = "rayon"))]
-                let (one, other) = (one(), other());
-                Some(one? + other?)
+        if let Known::Bounds { lo, hi, next } = *known {
+            let width = hi - lo;
+            let is_wide = width.is_nan() || width > threshold / volume;
+            match next.filter(|_| is_wide && !(self.stop)()) {
+                Some(direction) => *known = Known::Halves(direction, Box::new([Known::Nothing, Known::Nothing])),
+                None => {
+                    let middle = 0.5 * (lo + hi);
+                    let radius = (0.5 * (hi - lo)).next_up() + f64::EPSILON * middle.abs();
+                    return Some(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume));
+                }
             }
         }
-    }
-
-    /// Bounds the mean over a cell, or halves the cell if the bounds are too far apart.
-    fn step(&self, cell: &Cell<'a>, threshold: f64) -> Step<'a> {
-        let volume = (-f64::from(cell.halvings())).exp2();
-        let enough = threshold / volume;
-        let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), enough);
-        if found.width() > enough
-            && let Some(halves) = halves(cell, &found)
-        {
-            return Step::Halves(Box::new(halves));
-        }
-        let middle = 0.5 * (found.lo + found.hi);
-        let radius = (0.5 * (found.hi - found.lo)).next_up() + f64::EPSILON * middle.abs();
-        Step::Part(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume))
+        let Known::Halves(direction, parts) = known else { return None };
+        let [lower, upper] = cell.halves(usize::from(*direction))?;
+        let [first, second] = &mut **parts;
+        let one = || self.sum(&lower, first, threshold, count);
+        let other = || self.sum(&upper, second, threshold, count);
+        #[cfg(feature = "rayon")]
+        let (one, other) = rayon::join(one, other);
+        #[cfg(not(feature = "rayon"))]
+        let (one, other) = (one(), other());
+        Some(one? + other?)
     }
 }
 
-/// The bounds of a cell with this number of directions, by series of order 2 and, over one or two, of order 4.
+/// The bounds of a cell with this number of directions, by series of the order 2 about its middle and, over the whole of it, of the order 4, or 3 in three.
 fn bounds_in<'a>(problem: &Problem<'a>, cell: &Cell<'a>, directions: usize, enough: f64) -> Bounds {
     match directions {
         0 | 1 => problem.bounds::<3, 5>(cell, enough),
         2 => problem.bounds::<6, 15>(cell, enough),
-        _ => problem.bounds::<10, 10>(cell, enough),
+        _ => problem.bounds::<10, 20>(cell, enough),
     }
 }
 
-/// The halves of a cell in the direction that adds most to its width.
-fn halves<'a>(cell: &Cell<'a>, found: &Bounds) -> Option<[Cell<'a>; 2]> {
-    let mut order: Vec<usize> = (0..cell.directions.iter().flatten().count()).collect();
-    order.sort_by(|one, other| found.by[*other].total_cmp(&found.by[*one]));
-    order.into_iter().find_map(|index| cell.halves(index))
+/// The direction that adds most to the width of a cell, of those in which it can be halved.
+fn direction(cell: &Cell<'_>, found: &Bounds) -> Option<u8> {
+    let open = (0..cell.directions.iter().flatten().count()).filter(|index| cell.can_be_halved(*index));
+    // The first of those that add as much.
+    let most = open.rev().max_by(|one, other| found.by[*one].total_cmp(&found.by[*other]));
+    most.and_then(|index| u8::try_from(index).ok())
 }
 
 #[cfg(test)]

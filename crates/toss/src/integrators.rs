@@ -6,7 +6,9 @@
 //! An outcome needs more than a small error, because the integrator decides it by its own error estimate: this has to be
 //! within the accuracy, too.
 
-use dynamics::{Error, InputError, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss};
+use dynamics::{
+    Attitude, Error, InputError, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
+};
 use exact::ExactSolver;
 use exact::motion::COS_TILT_ERROR;
 
@@ -17,7 +19,7 @@ use crate::reason::Reason;
 use crate::registry::Registry;
 use crate::samples::no_integrator_for_a_space;
 use crate::scene::{Integrator, Scene, Want};
-use crate::trace::trace;
+use crate::trace::{attitudes, trace};
 
 /// The tolerances, from coarse to fine, of which a plan takes one.
 pub(crate) const TOLERANCES: [f64; 14] =
@@ -78,7 +80,7 @@ pub(crate) fn integrators(
             }
         }
     }
-    let exact = values(&ExactSolver, &scene.want)?;
+    let exact = reference(&scene.want)?;
     Ok(contestants.into_iter().map(|(entry, scheme)| offered(scene, &exact, entry, scheme)).collect())
 }
 
@@ -110,6 +112,23 @@ fn solver(entry: &SolverEntry, stepping: Stepping) -> Result<Box<dyn Solver>, In
     entry.solver(&Settings { stepping, ..Settings::default() })
 }
 
+/// What the answers of integrators are compared with.
+enum Reference {
+    /// The answer of the exact motion.
+    Answer(Answer),
+    /// The attitudes of its trace.
+    Trace(Vec<Attitude>),
+}
+
+fn reference(want: &Want) -> Result<Reference, Error> {
+    Ok(match want {
+        Want::Trace { toss, points } => {
+            Reference::Trace(attitudes(&ExactSolver, toss, *points)?.collect::<Result<_, _>>()?)
+        }
+        want => Reference::Answer(values(&ExactSolver, want)?),
+    })
+}
+
 /// The answer of `solver` to `want`; to an outcome, cos θ.
 fn values(solver: &dyn Solver, want: &Want) -> Result<Answer, Error> {
     Ok(match want {
@@ -121,7 +140,7 @@ fn values(solver: &dyn Solver, want: &Want) -> Result<Answer, Error> {
 }
 
 /// The offer of a scheme of an integrator: the coarsest tolerance that serves, or the reason why none does.
-fn offered(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
+fn offered(scene: &Scene, exact: &Reference, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
     let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
     let mut smallest = f64::INFINITY;
     let mut failed = None;
@@ -155,10 +174,16 @@ enum Flown {
     IsOffBy(f64),
 }
 
-fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tolerance: f64) -> Result<Flown, Error> {
+fn flown(
+    scene: &Scene,
+    exact: &Reference,
+    entry: &SolverEntry,
+    scheme: Scheme,
+    tolerance: f64,
+) -> Result<Flown, Error> {
     let stepping = Stepping::adaptive(scheme, tolerance)?;
     let solver = solver(entry, stepping)?;
-    let mut error = distance(&values(solver.as_ref(), &scene.want)?, exact);
+    let mut error = distance(solver.as_ref(), &scene.want, exact)?;
     if let Want::Outcome(toss) = &scene.want {
         error = error.max(solver.tilt(toss)?.error.unwrap_or(f64::INFINITY));
     }
@@ -172,18 +197,26 @@ fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tol
     Ok(Flown::Serves(Choice { model: model(), how, expected_error, expected_cost_ns, points: None }))
 }
 
-/// How far an answer is from that of the exact motion, of cos θ or of the attitude (rad), with what the latter may be off by
-/// itself. Of a trace it is the largest one of its points.
-fn distance(found: &Answer, exact: &Answer) -> f64 {
-    match (found, exact) {
-        (Answer::Tilt(found), Answer::Tilt(exact)) => (found - exact).abs() + COS_TILT_ERROR,
-        (Answer::Attitude(found), Answer::Attitude(exact)) => found.attitude.angle_to(&exact.attitude) + ATTITUDE_ERROR,
-        (Answer::Trace(found), Answer::Trace(exact)) => {
-            let angles = found.iter().zip(exact).map(|(found, exact)| found.attitude.angle_to(&exact.attitude));
-            angles.fold(0.0, f64::max) + ATTITUDE_ERROR
+/// How far the answer of `solver` is from that of the exact motion, of cos θ or of the attitude (rad), with what the latter may be
+/// off by itself. Of a trace it is the largest one of its points.
+fn distance(solver: &dyn Solver, want: &Want, exact: &Reference) -> Result<f64, Error> {
+    Ok(match (want, exact) {
+        (Want::Trace { toss, points }, Reference::Trace(exact)) => {
+            let mut largest = 0.0_f64;
+            for (found, exact) in attitudes(solver, toss, *points)?.zip(exact) {
+                largest = largest.max(found?.angle_to(exact));
+            }
+            largest + ATTITUDE_ERROR
         }
+        (want, Reference::Answer(exact)) => match (values(solver, want)?, exact) {
+            (Answer::Tilt(found), Answer::Tilt(exact)) => (found - exact).abs() + COS_TILT_ERROR,
+            (Answer::Attitude(found), Answer::Attitude(exact)) => {
+                found.attitude.angle_to(&exact.attitude) + ATTITUDE_ERROR
+            }
+            _ => f64::INFINITY,
+        },
         _ => f64::INFINITY,
-    }
+    })
 }
 
 /// The cost (ns) of the answer of `solver` by the calls that it counts. Each leg of a trace is taken to need as many as the

@@ -13,6 +13,7 @@ use crate::output::{self, Asked, FormatArgs, row, table};
 use crate::quantity;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
+use crate::watch::BudgetArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -48,6 +49,8 @@ pub(crate) struct Args {
                                 "speed", "time", "gravity", "drop", "tilt", "attitude", "drag", "bounce"])]
     scene: Option<PathBuf>,
     #[command(flatten)]
+    budget: BudgetArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -57,7 +60,9 @@ impl Args {
             Some(path) => scene_file(path)?,
             None => self.scene()?,
         };
-        let decision = scene.plan_with(registry)?;
+        asked.watch.show(None, "plans");
+        let (flown, registry) = (scene.clone(), registry.clone());
+        let decision = asked.watch.aside(move || flown.plan_with(&registry))??;
         Ok(self.format.print(asked, &decision, || text(&decision, &scene)))
     }
 

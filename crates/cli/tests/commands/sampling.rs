@@ -47,7 +47,10 @@ fn a_command_that_is_killed_leaves_no_file() {
 
 /// Commands that take minutes, and a part of what each knows early.
 const LONG: [(&str, &str); 11] = [
-    ("probability --rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --tilt 0.1 --speed 3:5 --method enclosure", "(proven)"),
+    (
+        "probability --rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --tilt 0.1 --speed 3:5 --method enclosure --accuracy 1e-6",
+        "(proven)",
+    ),
     ("probability --space paper-fig4 --method random --points 1e12", "clopper-pearson"),
     ("map --rate-x 0:40:900 --rate-y 5 --rate-z 10:20:900 --speed 3:5 --method sobol --tilt 1", "0,10,"),
     ("convergence --rate-x 1:60:9000 --rate-y 4 --rate-z 1:9:99 --speed 3:5:999", "grid"),
@@ -74,11 +77,14 @@ fn a_command_whose_time_is_up_answers_what_it_knows() {
     }
     let refused = json("toss --rate 1,1,1 --speed 3 --seconds 0", 2);
     assert_eq!(refused["error"]["field"], "seconds");
-    // Parts of a grid are no answer.
+    // Parts of a grid are no answer, and a plan is whole.
     let ended =
         run("probability --rate-x 1:60:9000 --rate-y 4 --rate-z 1:9:999 --speed 3:5:9999 --method grid --seconds 0.2");
-    assert_eq!((ended.status.code(), stdout(&ended)), (Some(1), String::new()));
-    assert_eq!(stderr(&ended), "error: out of time, by --seconds before there was an answer\n");
+    let flown = "plan --want trace --points 1e6 --rate 20,3,30 --speed 4 --accuracy 1e-9 --solver quaternion";
+    for ended in [ended, run(&format!("{flown} --seconds 0.2"))] {
+        assert_eq!((ended.status.code(), stdout(&ended)), (Some(1), String::new()));
+        assert_eq!(stderr(&ended), "error: out of time, by --seconds before there was an answer\n");
+    }
 }
 
 /// Ctrl-C ends each within a second. Processes of the background ignore it, unless `env` lets them not.

@@ -1,8 +1,9 @@
 //! A cell of parameters of launches: a box of dyadic intervals that is halved until the mean share over it is known.
 
-use numerics::{Ball, Jet};
+use numerics::Ball;
 
 use super::directions::Direction;
+use super::series::Series;
 
 /// The largest number of coordinates that a cell has.
 pub(super) const MOST_DIRECTIONS: usize = 3;
@@ -28,9 +29,14 @@ impl<'a> Cell<'a> {
         self.level.iter().sum()
     }
 
-    /// Both halves in direction number `index`; `None` if the middle is not an f64.
+    /// Whether its middle in direction number `index` is an f64.
+    pub(super) fn can_be_halved(&self, index: usize) -> bool {
+        self.level[index] < FINEST
+    }
+
+    /// Both halves in direction number `index`; `None` if it cannot be halved.
     pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
-        (self.level[index] < FINEST).then(|| {
+        self.can_be_halved(index).then(|| {
             [0, 1].map(|half| {
                 let mut cell = self.clone();
                 cell.level[index] += 1;
@@ -49,10 +55,10 @@ impl<'a> Cell<'a> {
 
     /// The parameter in direction number `index`, about the middle: with t from -1 to 1 as the one variable of the series. Its
     /// constant term is the middle, or for a `whole` cell a ball that contains the interval.
-    pub(super) fn parameter<const T: usize>(&self, index: usize, whole: bool) -> Jet<Ball<f64>, T> {
+    pub(super) fn parameter(&self, index: usize, whole: bool) -> Series<5> {
         let half = 0.5 * (-f64::from(self.level[index])).exp2();
         #[expect(clippy::cast_precision_loss, reason = "below 2^52")]
         let middle = (2.0 * self.place[index] as f64 + 1.0) * half;
-        Jet::variable(Ball::new(middle, if whole { half } else { 0.0 }), Ball::new(half, 0.0), 0)
+        Series::variable(Ball::new(middle, if whole { half } else { 0.0 }), Ball::new(half, 0.0), 0)
     }
 }

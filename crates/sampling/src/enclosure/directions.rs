@@ -11,11 +11,13 @@
 //! radii of the corners and of the sides, p and q, α is a difference of two arcs. Each begins like a root at the circle that
 //! touches its side, which s² undoes.
 
-use numerics::{Ball, Big, Elementary, Jet};
+use numerics::{Ball, Big, Elementary};
 
 use crate::axis::{Axis, Distribution, NORMAL_REACH};
 use crate::coordinate::Coordinate::{self, RateX, RateY, Tilt};
 use crate::space::Space;
+
+use super::series::Series;
 
 /// A number as it was typed, in whatever unit: its nearest f64 in the SI unit is right to u, and 0 is 0.
 pub(super) fn as_given(value: f64) -> Ball<f64> {
@@ -141,39 +143,39 @@ impl Direction {
     }
 
     /// The value, and the density of s where it is not 1.
-    pub(super) fn at<const T: usize>(&self, s: Jet<Ball<f64>, T>) -> (Jet<Ball<f64>, T>, Option<Jet<Ball<f64>, T>>) {
+    pub(super) fn at(&self, s: &Series<5>) -> (Series<5>, Option<Series<5>>) {
         let [lo, hi] = self.ends;
         let length = hi - lo;
-        let along = |s: Jet<Ball<f64>, T>| s.scaled(&length) + Jet::constant(lo);
+        let along = |s: &Series<5>| s.scaled(&length) + Series::constant(lo);
         match &self.kind {
             Kind::Uniform => (along(s), None),
             Kind::Normal { mean, sd } => {
                 let value = along(s);
-                let reduced = (value - Jet::constant(*mean)).scaled(&(Ball::new(1.0, 0.0) / *sd));
+                let reduced = (value - Series::constant(*mean)).scaled(&(Ball::new(1.0, 0.0) / *sd));
                 let root = (sd.pi() + sd.pi()).sqrt();
                 let height = length / (*sd * root);
-                (value, Some((-(reduced * reduced).halved()).exp().scaled(&height)))
+                (value, Some((reduced * reduced).scaled(&Ball::new(-0.5, 0.0)).exp().scaled(&height)))
             }
             Kind::Across(arcs) => {
-                let radius = along(s * s);
+                let radius = along(&s.times(s));
                 let angle = |side: &Side| {
                     if side.at == 0.0 {
                         let angle = if side.is_x { lo.pi().halved() } else { lo.like(0.0) };
-                        return Jet::constant(angle);
+                        return Series::constant(angle);
                     }
                     // √(Ω² - side²), which has no root at the circle that touches the side.
-                    let at = Jet::constant(Ball::new(side.at, 0.0));
+                    let at = Series::constant(Ball::new(side.at, 0.0));
                     let other = if lo == Ball::new(side.at, 0.0) {
-                        s * ((radius + at).scaled(&length)).sqrt()
+                        s.times(&(radius + at).scaled(&length).sqrt())
                     } else {
                         ((radius - at) * (radius + at)).sqrt()
                     };
                     if side.is_x { other.atan2(&at) } else { at.atan2(&other) }
                 };
-                let zero = Jet::constant(Ball::new(0.0, 0.0));
+                let zero = Series::constant(Ball::new(0.0, 0.0));
                 let sum =
                     arcs.iter().fold(zero, |sum, arc| sum + (angle(&arc.to) - angle(&arc.from)).scaled(&arc.density));
-                (radius, Some((radius * s * sum).scaled(&(length + length))))
+                (radius, Some((radius.times(s) * sum).scaled(&(length + length))))
             }
         }
     }
@@ -240,10 +242,10 @@ mod tests {
         for part in parts {
             for point in 0..POINTS {
                 let s = (f64::from(point) + 0.5) / f64::from(POINTS);
-                let (value, density) = part.at(Jet::<_, 3>::constant(Ball::new(s, 0.0)));
-                let density = density.map_or(1.0, |density| density.to_f64()) / f64::from(POINTS);
+                let (value, density) = part.at(&Series::constant(Ball::new(s, 0.0)));
+                let density = density.map_or(1.0, |density| *density.value().midpoint()) / f64::from(POINTS);
                 sums[0] += density;
-                sums[1] += density * value.to_f64().powi(2);
+                sums[1] += density * value.value().midpoint().powi(2);
             }
         }
         sums

@@ -4,7 +4,9 @@
 //! atan(√x)² = x r(x)²,   r(x) = Σ (-x)^k/(2k + 1)     for |x| < 1
 //! ```
 
-use numerics::{Ball, Elementary, Jet};
+use numerics::{Ball, Elementary};
+
+use super::series::Series;
 
 /// Terms of the series. For |x| ≤ ¼ the first one left out is below 2^-72 of the sum, also of the second derivative.
 const TERMS: u32 = 40;
@@ -13,9 +15,9 @@ const TERMS: u32 = 40;
 const LEFT_OUT: f64 = 8.470_329_472_543_003e-22; // 2^-70
 
 /// atan(√x)² for a series of order 2 whose constant term is a ball within |x| ≤ ¼, continued to x < 0.
-pub(super) fn squared_angle_of_root<const T: usize>(x: &Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T> {
-    debug_assert!(Jet::<Ball<f64>, T>::ORDER == 2);
-    let at = *x.value();
+pub(super) fn squared_angle_of_root<const T: usize>(x: &Series<T>) -> Series<T> {
+    debug_assert!(Series::<T>::ORDER == 2);
+    let at = x.value();
     let number = |value: f64| Ball::new(value, 0.0);
     // r, r' and ½ r'' by Horner's rule, from the last term on.
     let mut sums = [number(0.0); 3];
@@ -29,7 +31,7 @@ pub(super) fn squared_angle_of_root<const T: usize>(x: &Jet<Ball<f64>, T>) -> Je
     let [value, slope, curvature] = sums.map(|sum| sum.widened(LEFT_OUT));
     let nothing = number(0.0);
     let ratio = x.composed(&[value, slope, curvature, nothing, nothing]);
-    *x * ratio * ratio
+    x.times(&ratio).times(&ratio)
 }
 
 #[cfg(test)]
@@ -42,7 +44,7 @@ mod tests {
     fn it_is_the_square_of_the_arctangent_with_its_derivatives() {
         for part in 1..=50 {
             let x = f64::from(part) * 0.005;
-            let found = squared_angle_of_root(&Jet::<_, 3>::variable(Ball::new(x, 0.0), Ball::new(1.0, 0.0), 0));
+            let found = squared_angle_of_root(&Series::<3>::variable(Ball::new(x, 0.0), Ball::new(1.0, 0.0), 0));
             let squared = |x: DoubleDouble| {
                 let angle = Elementary::atan2(&x.sqrt(), &DoubleDouble::from(1.0));
                 angle * angle
@@ -55,7 +57,7 @@ mod tests {
             let curvature = (after - here - (here - before)) / (step * step);
             let expected = [here, slope, curvature.half()].map(DoubleDouble::hi);
             for ((term, expected), allowed) in
-                found.terms().map(|(_, term)| term).zip(expected).zip([1e-30, 1e-12, 1e-9])
+                (0..3).map(|index| found.term(index)).zip(expected).zip([1e-30, 1e-12, 1e-9])
             {
                 let off = (term.midpoint() - expected).abs();
                 assert!(off <= term.radius() + allowed, "{x}: {off:e} {term:?}");
@@ -68,7 +70,7 @@ mod tests {
     fn it_is_continued_to_negative_numbers() {
         // atan(i y)² = -artanh(y)²
         let y = 0.4_f64;
-        let found = squared_angle_of_root(&Jet::<_, 3>::constant(Ball::new(-y * y, 1e-17)));
+        let found = squared_angle_of_root(&Series::<3>::constant(Ball::new(-y * y, 1e-17)));
         assert!((found.value().midpoint() + y.atanh().powi(2)).abs() < 1e-15);
     }
 }

@@ -1,7 +1,7 @@
 use dynamics::Coin;
-use numerics::Jet;
 
 use super::cell::MOST_DIRECTIONS;
+use super::series::Series;
 use super::*;
 use crate::exact_speed;
 use crate::plan::{Plan, Rest, Scrambled};
@@ -72,10 +72,10 @@ fn mean_of_shares(space: &Space, cell: &Cell<'_>, points: u32) -> f64 {
             let [lo, hi] = cell.interval(index);
             let part = (f64::from((rest % u64::from(points)) as u32) + 0.5) / f64::from(points);
             rest /= u64::from(points);
-            let s = Jet::<_, 3>::constant(Ball::new(lo + part * (hi - lo), 0.0));
-            let (value, density) = direction.at(s);
-            values[direction.of as usize] = value.to_f64();
-            weight *= density.map_or(1.0, |density| density.to_f64());
+            let s = Series::constant(Ball::new(lo + part * (hi - lo), 0.0));
+            let (value, density) = direction.at(&s);
+            values[direction.of as usize] = *value.value().midpoint();
+            weight *= density.map_or(1.0, |density| *density.value().midpoint());
         }
         sum += weight * exact_speed::share(space, space.coin().unwrap(), &values).unwrap().probability;
     }
@@ -103,20 +103,18 @@ fn cells(directions: &[Vec<Direction>], index: u32) -> Vec<Cell<'_>> {
 fn assert_contains(space: &Space, index: u32, roundings: f64) -> [u32; 2] {
     let (directions, _) = directions_of(space);
     let problem = Problem::new(space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
-    let points = [512, 48, 12][directions.len() - 1];
+    let points = [8192, 80, 18][directions.len() - 1];
     let [mut number, mut told] = [0; 2];
     for cell in cells(&directions, index) {
         let found = bounds_in(&problem, &cell, directions.len(), 0.0);
-        // By series of more terms, too.
-        let finer = bounds_in(&problem, &cell, directions.len(), 0.01 * found.width());
-        let [rough, fine] = [points / 2, points].map(|points| mean_of_shares(space, &cell, points));
-        let slack = 2.0 * (rough - fine).abs() + roundings;
-        for found in [found, finer] {
-            assert!(
-                found.lo - slack <= fine && fine <= found.hi + slack,
-                "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
-            );
-        }
+        let [rough, other, fine] =
+            [points / 2, 7 * points / 10, points].map(|points| mean_of_shares(space, &cell, points));
+        // Two numbers of points alone may agree by chance.
+        let slack = 2.0 * (rough - fine).abs().max((other - fine).abs()) + roundings;
+        assert!(
+            found.lo - slack <= fine && fine <= found.hi + slack,
+            "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
+        );
         number += 1;
         told += u32::from(slack < 0.2 * found.width() && found.width() < 0.1);
     }
@@ -248,23 +246,25 @@ fn assert_as_many_cells_as_there_were(are_many: bool) {
     };
     let accuracies = [[1e-3, 1e-5, 1e-6], [1e-2, 1e-3, 1e-4], [1e-4, 1e-6, 1e-7], [3e-2, 1e-2, 4e-3]];
     let expected = [
-        [11, 25, 47],
+        [7, 13, 17],
         [1, 1, 1],
-        [831, 4795, 11011],
-        [197, 227, 277],
+        [297, 1605, 3695],
+        [139, 145, 153],
         [1, 1, 1],
-        [63, 87, 283],
-        [7, 59, 87],
+        [43, 43, 67],
+        [3, 5, 15],
         [1, 1, 1],
-        [1611, 9223, 20635],
+        [775, 3361, 6215],
     ];
     // Sines that are rounded otherwise may halve a cell more.
     let cases = expected.into_iter().zip(spaces().zip(accuracies.into_iter().cycle()));
-    for (expected, case) in cases.filter(|(expected, _)| (expected[2] > 300) == are_many) {
-        let found = cells(case);
-        let is_near = |(found, expected): (u64, u64)| found.abs_diff(expected) <= 2 + expected / 50;
-        assert!(found.into_iter().zip(expected).all(is_near), "{found:?}, not {expected:?}");
-    }
+    let is_near = |(found, expected): (u64, u64)| found.abs_diff(expected) <= 2 + expected / 50;
+    let found: Vec<([u64; 3], [u64; 3])> = cases
+        .filter(|(expected, _)| (expected[2] > 300) == are_many)
+        .map(|(expected, case)| (cells(case), expected))
+        .collect();
+    let is_as_before = found.iter().all(|(found, expected)| found.iter().copied().zip(*expected).all(is_near));
+    assert!(is_as_before, "found and expected: {found:?}");
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn the_usual_accuracy_is_reached_soon() {
     ] {
         let space = space.build().unwrap();
         let found = estimate(SILENT, &space, usual_accuracy(&space), most_cells).unwrap();
-        assert!(found.points > 50, "{space:?}: {}", found.points);
+        assert!(found.points > 20, "{space:?}: {}", found.points);
     }
 }
 
@@ -389,7 +389,7 @@ fn a_coin_that_hardly_turns_shows_one_face() {
         let found = bounds_in(&problem, &roots(&directions)[0], 1, 0.0);
         assert_eq!((found.lo, found.hi), (share, share), "{tilt}");
         let work = Work { problem, roots: roots(&directions), progress: SILENT.0, stop: SILENT.2 };
-        let (sum, cells) = work.pass(1.0, 1).unwrap();
+        let (sum, cells) = work.pass(&mut work.nothing(), 1.0, (0, 1)).unwrap();
         let room = sum.radius() / f64::EPSILON;
         assert!(
             cells == 1 && sum.midpoint().to_f64() == share && (share..=3.0 * share + 1e-9).contains(&room),
@@ -447,10 +447,10 @@ fn cells_are_counted_and_limited() {
     let report = |cells| reported.lock().unwrap().push(cells);
     let problem = Problem::new(&space, Coin::PAPER, false);
     let work = Work { problem, roots: roots(&directions), progress: &report, stop: SILENT.2 };
-    let (sum, cells) = work.pass(0.5_f64.powi(10), 2047).unwrap();
+    let (sum, cells) = work.pass(&mut work.nothing(), 0.5_f64.powi(10), (0, 2047)).unwrap();
     assert_eq!((sum.midpoint().to_f64(), cells), (0.5, 2047));
     assert_eq!(*reported.lock().unwrap(), [256, 256, 256, 256, 256, 256, 256, 255]);
-    assert!(work.pass(0.5_f64.powi(10), 2046).is_none());
+    assert!(work.pass(&mut work.nothing(), 0.5_f64.powi(10), (0, 2046)).is_none());
 }
 
 #[test]
@@ -464,14 +464,15 @@ fn a_pass_follows_if_it_helps_and_has_enough_cells() {
         // Narrow enough.
         (passes, 0.5, 1, None),
         (passes, 1.0, 1, None),
-        // 0.8 of the width that is wanted, and no less than half, nor than 10^-5.
+        // 0.8 of the width that is wanted, from a twentieth to 0.7 of the last threshold.
         (thousands, 4.0, 1, Some(0.2)),
         (square, 4.0, 1, Some(0.05)),
-        (thousands, 1.25, 1, Some(0.5)),
-        (thousands, 1e9, 1, Some(1e-5)),
+        (thousands, 1.25, 1, Some(0.64)),
+        (thousands, 1.01, 1, Some(0.7)),
+        (thousands, 1e9, 1, Some(0.05)),
         // No more than the fourth part of the cells, and a threshold that leaves it.
         (passes, 2.0, 251, None),
-        (passes, 2.0, 250, Some(0.5)),
+        (passes, 2.0, 250, Some(0.7)),
         (passes, 10.0, 100, Some(0.4)),
         (Passes { power: 2.0, ..passes }, 100.0, 100, Some(0.16)),
         // A width that is not clearly narrower asks for far smaller cells, but not again and again.
