@@ -1,12 +1,12 @@
 //! Distributions of launches.
 
-use ::toss::sampling::{Coordinate, named_space, named_spaces};
+use ::toss::sampling::{Coordinate, DescribedSpace, named_space, named_spaces};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
-use crate::given::{self, axis, no_others, object, optional_number, text};
+use crate::given::{self, axis, no_others, number, object, optional_number, text};
 
 /// A distribution of the launches of one coin: each coordinate is independent of the others, or tied to one.
 ///
@@ -76,6 +76,39 @@ impl Space {
     fn named(name: &Bound<'_, PyAny>) -> PyResult<Self> {
         let name = text("name", name, "the name of a space")?;
         Ok(Self { space: named_space(&name).map_err(|error| Failure::from(error).of("name"))? })
+    }
+
+    /// A space from a file in TOML, as ``--space FILE.toml`` reads it.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     The text of the file.
+    #[staticmethod]
+    fn from_toml(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = self::text("text", text, "a space as TOML")?;
+        Ok(Self { space: DescribedSpace::from_toml(&text).map_err(Failure::from)?.space })
+    }
+
+    /// The same space, thrown by a hand, as ``--spread`` has it.
+    ///
+    /// Parameters
+    /// ----------
+    /// spread : float
+    ///     Each rate and the speed that has a single value is normal around it, with the standard deviation ``spread`` times the
+    ///     value; from 0 to 0.12.
+    fn with_spread(&self, spread: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self { space: self.space.thrown_by_hand(number("spread", spread)?).map_err(Failure::from)? })
+    }
+
+    /// The same space with another height of landing.
+    ///
+    /// Parameters
+    /// ----------
+    /// drop : float or str
+    ///     How far below their launch the coins land, in m.
+    fn with_drop(&self, drop: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self { space: self.space.with_drop(Some(number("drop", drop)?)).map_err(Failure::from)? })
     }
 
     /// The same space for another coin or body.

@@ -6,9 +6,7 @@ use std::path::Path;
 use clap::Args;
 use dynamics::thrown::{Field, Thrown};
 use rayon::ThreadPoolBuilder;
-use sampling::{
-    AxisOrTie, Coordinate, DescribedSpace, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
-};
+use sampling::{AxisOrTie, Coordinate, DescribedSpace, Method, Plan, Rest, Sampler, Space, named_space, named_spaces};
 use toss::Error;
 use toss::defaults::{LAUNCHES, LAUNCHES_OF_A_NODE, Launches, MOST_OF_BODIES, SEED, Wanted};
 use toss::quantity::Dimension;

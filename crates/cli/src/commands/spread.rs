@@ -2,9 +2,7 @@
 //! relative spread of the launch with which heads is still as probable, and that of each input alone, and says how finely
 //! smaller spreads were looked at.
 
-use sampling::{
-    LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Sampler, Space, Spreads, SufficientSpread,
-};
+use sampling::{LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Sampler, Space, Spreads, SufficientSpread};
 use toss::Outcome;
 use toss::defaults::SEED;
 

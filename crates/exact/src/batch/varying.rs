@@ -32,7 +32,7 @@ const LARGEST: f64 = 1e50;
 const LARGEST_TILT: f64 = 1e6;
 
 /// 2/π and its rest: quarters of a turn per radian.
-const QUARTERS: [f64; 2] = [std::f64::consts::FRAC_2_PI, -3.935_735_335_036_497_2e-17];
+const QUARTERS: [f64; 2] = [std::f64::consts::FRAC_2_PI, -3.935_735_335_036_497e-17];
 
 /// A number for each toss, or one for all.
 #[derive(Debug, Clone, Copy)]
