@@ -75,6 +75,13 @@ def seed(value: Any) -> Any:
     return value
 
 
+def as_seed(seed: Any, rng: Any) -> Any:
+    """The seed, by either of its names."""
+    if seed is not None and rng is not None:
+        raise MalformedError("seed and rng are the same setting", field="rng", valid="either seed or rng")
+    return seed if rng is None else rng
+
+
 def a_function(field: str, value: object) -> None:
     """Refuses what is neither None nor can be called."""
     if value is not None and not callable(value):
