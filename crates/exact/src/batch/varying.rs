@@ -128,7 +128,7 @@ impl Varying<'_> {
                     column.fill(room, start, number);
                 }
                 for place in 0..number {
-                    let (vertical, norm) = vertical_in_body(quaternions.map(|part| part[place]));
+                    let (vertical, norm) = vertical_in_body(quaternions.each_ref().map(|part| part[place]));
                     // What is NaN is solved by itself.
                     let scale = if (1e-100..1e100).contains(&norm) { 1.0 / norm } else { f64::NAN };
                     [tilt[place], across[place], along[place]] = vertical.map(|part| part * scale);
@@ -155,7 +155,11 @@ impl WithSimd for Run<'_, '_> {
             let number = TILE.min(self.out.len() - start);
             self.tosses.fill(&mut columns, start, number);
             for at in (0..number).step_by(Real::<S>::LANES) {
-                let launch = columns.each_ref().map(|column| Real::load(simd, &column[at..]));
+                // No closure, which would be compiled without the instructions of the level.
+                let mut launch = [Real::splat(simd, 0.0); 9];
+                for (number, column) in launch.iter_mut().zip(&columns) {
+                    *number = Real::load(simd, &column[at..]);
+                }
                 self.cos_tilt(simd, launch).store_up_to(&mut self.out[start + at..start + number]);
             }
         }
