@@ -87,7 +87,8 @@ impl Space {
     #[staticmethod]
     fn from_toml(text: &Bound<'_, PyAny>) -> PyResult<Self> {
         let text = self::text("text", text, "a space as TOML")?;
-        Ok(Self { space: DescribedSpace::from_toml(&text).map_err(Failure::from)?.space })
+        let read = DescribedSpace::from_toml(&text).map_err(|error| Failure::from(error).of("text"));
+        Ok(Self { space: read?.space })
     }
 
     /// The same space, thrown by a hand, as ``--spread`` has it.

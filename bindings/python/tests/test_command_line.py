@@ -82,6 +82,7 @@ COMMANDS = {
         "plan",
         OF_A_TOSS | OF_A_SPACE
         | {name: f"plan.{name}" for name in ("want", "accuracy", "points", "solver", "scheme")}
+        | {"scene": "none: a Toss or a Space is the scene", "prove": "none: toss.prove proves what was planned"}
         | {name: OF_A_TOSS[name] for name in ("speed", "gravity", "drop", "tilt", "turn", "psi")},
     ),
     "coins": ("bodies", {}),
@@ -206,3 +207,30 @@ def test_counts_of_people_come_from_a_frame_too():
             ut.inverse(counts=wrong)
     with pytest.raises(ut.errors.InputError):
         ut.inverse()
+
+
+def test_a_table_is_read_by_pandas_polars_and_arrow():
+    space = ut.Space(rate_x=(20, 60), rate_y=0, rate_z=(5, 15), speed=(3, 5))
+    sample = ut.sample(space, 30, seed=np.random.SeedSequence(4))
+    assert sample == ut.sample(space, 30, rng=np.random.SeedSequence(4)) != ut.sample(space, 30, seed=5)
+    assert sample._repr_html_().count("<tr>") == 21 and "first 20 of 30 rows" in sample._repr_html_()
+    assert repr(sample).startswith("Sample(30 rows: rate_x,") and len(sample) == 30
+    pandas = pytest.importorskip("pandas")
+    frame = sample.to_pandas()
+    again = ut.cos_tilt(frame.rate_x, frame.rate_y, frame.rate_z, frame.speed, gravity=frame.gravity, tilt=frame.tilt)
+    assert isinstance(again, pandas.Series) and np.abs(again - frame.cos_tilt).max() < 1e-15
+    polars, pyarrow = pytest.importorskip("polars"), pytest.importorskip("pyarrow")
+    assert polars.DataFrame(sample)["cos_tilt"].to_list() == sample.cos_tilt.tolist()
+    assert pyarrow.table(sample).column_names == list(frame.columns)
+    own = polars.DataFrame(sample)
+    faces = ut.outcome(own["rate_x"], own["rate_y"], own["rate_z"], own["speed"])
+    assert own.with_columns(faces=faces)["faces"].to_list() == sample.outcome.tolist()
+    with pytest.raises(ut.errors.MalformedError, match="rng"):
+        ut.sample(space, 30, seed=1, rng=2)
+
+
+def test_ends_of_intervals_are_shown_with_all_digits():
+    found = ut.intervals(ut.Toss((20.0, 0.0, 30.0), speed=2.4, body="us-quarter"), 2.0)
+    assert found.heads.size and repr(found.heads.tolist()[0][0]) in repr(found).replace("\n", "")
+    shown = ut.results._short(np.array([1 / 3, 2 / 3]))
+    assert [float(text) for text in shown.strip("[]").split()] == [1 / 3, 2 / 3]

@@ -6,14 +6,14 @@ An attitude is the unit quaternion (w, x, y, z) from the body to the laboratory.
 """
 
 from . import errors, given
-from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
+from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, models, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
 from .results import DenseOutput, Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Solution, Trace, Work
 from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, power, rate_of_precession, same_side_bias, toss, trace
 from .solving import solve
-from .studies import compare, convergence, limit, map, models, sample, sampling_errors, sensitivity, spread
+from .studies import compare, convergence, limit, map, sample, sampling_errors, sensitivity, spread
 from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone
 from .tallies import tally
 

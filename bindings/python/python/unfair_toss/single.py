@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._native import Body, Solver, Toss
-from .errors import MissingError
+from .errors import InputError, MissingError
 from .given import wrong
 from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Trace, Work, fastest_turn
@@ -172,7 +172,11 @@ def inverse(
     if counts is not None:
         if probability is not None:
             raise wrong("counts", counts, "None, or no probability")
-        return same_side_bias(*_people(counts), body)
+        try:
+            return same_side_bias(*_people(counts), body)
+        except InputError as error:
+            error.field = "counts" if error.field in ("same_side", "tosses") else error.field
+            raise
     if probability is None:
         raise MissingError("probability is missing: expected it or counts", field="probability", valid="above ½, up to 1")
     wanted = _native.number("probability", probability)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,8 @@ from .planner import Choice, plan_of
 from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone
 from .units import Quantity
 
-_Seed = int | np.random.Generator | np.random.SeedSequence | None
+if TYPE_CHECKING:
+    _Seed: TypeAlias = int | np.random.Generator | np.random.SeedSequence | None
 
 
 def limit(
@@ -261,21 +262,6 @@ def sensitivity(toss: Toss) -> Sensitivity:
     """
     found = json.loads(_native.sensitivity(toss))
     return Sensitivity(tuple(found["rate"]), found["time"])
-
-
-def models() -> list[tuple[str, str, str, float | None]]:
-    """The models from which ``plan`` chooses.
-
-    Returns
-    -------
-    list of (str, str, str, float or None)
-        The name of each, what it gives, what it assumes, and the recorded cost in ns of a closed form.
-
-    Raises
-    ------
-    Nothing.
-    """
-    return _native.models()
 
 
 def sample(
