@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _native
 from ._native import Body, Plan, Solver, Space, Toss
+from .errors import MalformedError, UnknownNameError
 from .given import as_seed, wrong
 from .planner import Choice, plan_of
 from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone
@@ -308,8 +309,16 @@ def sample(
     return Sample(x, y, z, speed, gravity, tilt, time, cos_tilt, outcome, certified)
 
 
+METHODS = "grid, random, sobol"
+"""The methods that draw single launches."""
+
+
 def _plan(points: Any, method: str, seed: Any) -> Plan:
     """The plan of a sample."""
+    if not isinstance(method, str):
+        raise wrong("method", method, '"grid", "random" or "sobol"')
+    if seed is not None and (isinstance(points, Plan | Choice) or method == "grid"):
+        raise MalformedError("seed has no effect with a plan or a grid", field="seed", valid="None")
     if isinstance(points, Plan | Choice):
         return plan_of(points)
     given: dict[str, Any] = {} if seed is None else {"seed": seed}
@@ -323,4 +332,4 @@ def _plan(points: Any, method: str, seed: Any) -> Plan:
         return Plan.random(points, **given)
     if method == "sobol":
         return Plan.sobol(points, scrambles=1, **given)
-    raise wrong("method", method, '"grid", "random" or "sobol"')
+    raise UnknownNameError(f"method = '{method}' is unknown; known: {METHODS}", field="method", valid=METHODS)
