@@ -129,7 +129,9 @@ impl Batch {
 }
 
 fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
-    launches.runs(range).try_fold(Counts::default(), |sum, run| Ok(added(sum, launches.count(run)?)))
+    launches
+        .runs(range, launches.of.is_vectorised())
+        .try_fold(Counts::default(), |sum, run| Ok(added(sum, launches.count(run)?)))
 }
 
 /// Writes what is found of the launches in a range, of those in a row at once that differ in rates and speeds only.
@@ -142,7 +144,11 @@ fn by_runs<T>(
 ) -> Result<(), Failure> {
     let start = range.start;
     let place = |index: usize| width * (index - start);
-    launches.runs(range).try_for_each(|run| solve(launches, run.clone(), &mut out[place(run.start)..place(run.end)]))
+    // Of cos θ and outcomes of coins.
+    let varies = width == 1 && launches.of.is_vectorised();
+    launches
+        .runs(range, varies)
+        .try_for_each(|run| solve(launches, run.clone(), &mut out[place(run.start)..place(run.end)]))
 }
 
 /// The columns, for reading.

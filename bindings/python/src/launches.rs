@@ -1,17 +1,18 @@
-//! What is found of launches in columns: by the kernels of [`::toss::Batch`] for coins, in the widest registers of the
-//! machine, and for the outcomes of other bodies; launch by launch for what else is asked of these, with a drop, and by a
-//! solver.
+//! What is found of launches in columns: by the kernels of [`::toss::Batch`] and [`Varying`] for coins, in the widest registers
+//! of the machine, and for the outcomes of other bodies; launch by launch for what else is asked of these, for attitudes at
+//! landing of coins with a drop, and by a solver.
 
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
 use ::toss::{
-    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss,
-    Tosses, Verdict, certify,
+    Attitude, Backend, Body, Coin, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, Stage,
+    TimeOfFlight, Toss, Tosses, Verdict, certify,
 };
 use dynamics::error::require;
 use exact::STAGES;
+use exact::batch::varying::{Attitudes, Column, Flights, PROVEN_ABOVE, Varying};
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -48,7 +49,13 @@ pub(crate) struct Common {
 impl Common {
     /// Whether all that is asked of the launches is solved by the kernels.
     pub(crate) fn is_vectorised(&self) -> bool {
-        self.solver.is_none() && self.body.coin().is_some() && !self.has_drop()
+        self.solver.is_none() && self.body.coin().is_some()
+    }
+
+    /// The coin of launches that differ in more than rates and speeds, or land elsewhere than at the height of their launch.
+    fn varying_coin(&self) -> Option<Coin> {
+        let is_plain = !self.has_drop() && self.varying == [false; 4];
+        self.body.coin().filter(|_| self.is_vectorised() && !is_plain)
     }
 
     fn has_drop(&self) -> bool {
@@ -57,7 +64,7 @@ impl Common {
 
     /// Whether outcomes are decided toss by toss, not by the kernels.
     fn decides_one_by_one(&self) -> bool {
-        self.has_drop() || matches!(self.solver, Some(Backend::Solver(_)))
+        (self.has_drop() && !self.is_vectorised()) || matches!(self.solver, Some(Backend::Solver(_)))
     }
 
     /// How a toss lands: proven, or estimated by a solver.
@@ -105,9 +112,10 @@ impl Launches<'_> {
         Err(malformed("out", out.len(), "as many results as launches"))
     }
 
-    /// The parts of `range` in which nothing varies but rates and speeds.
-    pub(crate) fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let others: Vec<&[f64]> = self.columns[4..].iter().map(|column| &**column).collect();
+    /// The parts of `range` in which nothing varies but rates and speeds; all of it for a kernel in which more may vary.
+    pub(crate) fn runs(&self, range: Range<usize>, varies: bool) -> impl Iterator<Item = Range<usize>> {
+        let others: &[Cow<'_, [f64]>] = if varies { &[] } else { &self.columns[4..] };
+        let others: Vec<&[f64]> = others.iter().map(|column| &**column).collect();
         let mut start = range.start;
         std::iter::from_fn(move || {
             let first = start;
@@ -152,8 +160,62 @@ impl Launches<'_> {
         coin.map(|coin| self.tosses(coin, range).map(::toss::Batch::new)).transpose()
     }
 
+    /// Writes cos θ of the launches of a coin in `range` that may differ in all else; NaN for what is solved one by one.
+    fn cos_tilts_of_varying(&self, coin: Coin, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
+        let mut others = self.columns[4..].iter().map(|column| Column::Each(&column[range.clone()]));
+        let [gravity, drop, tilt, w] = self.of.varying.map(|varies| if varies { others.next() } else { None });
+        let gravity = gravity.unwrap_or(Column::All(self.of.gravity));
+        let speeds = Column::Each(&self.columns[3][range.clone()]);
+        let flights = match drop.or(self.of.drop.map(Column::All)) {
+            _ if self.of.timed => Flights::Times(speeds),
+            None => Flights::Level(speeds, gravity),
+            Some(drop) => Flights::Below(speeds, gravity, drop),
+        };
+        let components = self.of.attitude.components().map(Column::All);
+        let attitudes = match (tilt, w) {
+            (Some(tilt), _) => Attitudes::Tilts(tilt),
+            (None, Some(w)) => Attitudes::Quaternions(
+                [Some(w), others.next(), others.next(), others.next()].map(|part| part.unwrap_or(w)),
+            ),
+            (None, None) if self.of.attitude == Attitude::IDENTITY => Attitudes::Tilts(Column::All(0.0)),
+            (None, None) => Attitudes::Quaternions(components),
+        };
+        let rates = self.rates().map(|column| &column[range.clone()]);
+        Ok(Varying { coin, rates, flights, attitudes }.cos_tilts(out)?)
+    }
+
+    /// As [`Launches::prove`], of a coin of which all else may vary. It calls `found` with each outcome and the stage of its proof.
+    fn prove_varying(
+        &self,
+        coin: Coin,
+        range: Range<usize>,
+        mut found: impl FnMut(usize, Outcome, Option<Stage>),
+    ) -> Result<(), Failure> {
+        let mut block = [0.0; A_PROOF];
+        for start in range.clone().step_by(A_PROOF) {
+            let part = start..range.end.min(start + A_PROOF);
+            let cos_tilts = &mut block[..part.len()];
+            self.cos_tilts_of_varying(coin, part.clone(), cos_tilts)?;
+            for (index, cos_tilt) in part.zip(cos_tilts) {
+                let place = index - range.start;
+                if cos_tilt.abs() > PROVEN_ABOVE {
+                    found(place, if *cos_tilt > 0.0 { Outcome::Heads } else { Outcome::Tails }, Some(Stage::F64));
+                } else {
+                    let at = |failure: Failure| failure.at(self.first + index as u64);
+                    let verdict = self.of.verdict(&self.toss(index).map_err(at)?);
+                    let verdict = verdict.map_err(|error| at(error.into()))?;
+                    found(place, verdict.outcome(), verdict.stage().filter(|_| verdict.is_proven()));
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the proven outcomes of the launches in `range`, of any body.
     fn prove(&self, range: Range<usize>, outcomes: &mut [Outcome]) -> Result<(), Failure> {
+        if let Some(coin) = self.of.varying_coin() {
+            return self.prove_varying(coin, range, |place, outcome, _| outcomes[place] = outcome);
+        }
         let start = range.start;
         let done = match self.of.body.coin() {
             Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).outcomes(outcomes),
@@ -201,6 +263,17 @@ impl Launches<'_> {
     /// Writes cos θ at landing.
     pub(crate) fn cos_tilts(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
         let start = range.start;
+        if let Some(coin) = self.of.varying_coin() {
+            self.cos_tilts_of_varying(coin, range, out)?;
+            let unsolved = (0..out.len()).filter(|place| out[*place].is_nan()).collect::<Vec<_>>();
+            return unsolved.into_iter().try_for_each(|place| {
+                let index = start + place;
+                self.each(index..index + 1, |_, solver, toss| {
+                    out[place] = solver.tilt(toss)?.cos_tilt;
+                    Ok(())
+                })
+            });
+        }
         match self.batch(range.clone())? {
             Some(batch) => batch.cos_tilts(out).map_err(|error| self.failed(start, error)),
             None => self.each(range, |place, solver, toss| {
@@ -231,7 +304,7 @@ impl Launches<'_> {
     /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
     pub(crate) fn attitudes(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
         let start = range.start;
-        if !self.of.is_vectorised() {
+        if !self.of.is_vectorised() || self.of.has_drop() {
             return self.each(range, |place, solver, toss| {
                 let landing = solver.land(toss)?.state.attitude;
                 out[4 * place..4 * place + 4].copy_from_slice(&landing.components());
@@ -268,6 +341,17 @@ impl Launches<'_> {
             })?;
             return Ok(sum);
         }
+        if let Some(coin) = self.of.varying_coin() {
+            let mut sum = Counts::default();
+            self.prove_varying(coin, range, |_, outcome, stage| {
+                sum[[Outcome::Heads, Outcome::Tails, Outcome::Undecided]
+                    .iter()
+                    .position(|of| *of == outcome)
+                    .unwrap_or(2)] += 1;
+                sum[stage.and_then(|by| STAGES.iter().position(|of| *of == by)).map_or(3, |place| 4 + place)] += 1;
+            })?;
+            return Ok(sum);
+        }
         let start = range.start;
         let counts = match self.of.body.coin() {
             Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
@@ -288,7 +372,7 @@ fn are_like(columns: &[&[f64]], first: usize, range: Range<usize>) -> bool {
 }
 
 /// The sign of cos θ.
-fn sign(outcome: Outcome) -> i8 {
+pub(crate) fn sign(outcome: Outcome) -> i8 {
     // Not a match, which would not be vectorised.
     i8::from(outcome == Outcome::Heads) - i8::from(outcome == Outcome::Tails)
 }

@@ -18,6 +18,7 @@ mod plans;
 mod single;
 mod solver;
 mod space;
+mod studies;
 mod tally;
 mod threads;
 mod toss;
@@ -40,6 +41,7 @@ mod _native {
         single::{intervals, inverse, land, margins, power, rate_of_precession, same_side_bias, solve, trace},
         solver::{Solver, solvers},
         space::{Space, spaces},
+        studies::{compare, convergence, limit, map_of, models, prove, sample, sampling_errors, sensitivity, spread},
         tally::{Tally, tally},
         toss::Toss,
     };

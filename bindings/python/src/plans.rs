@@ -1,6 +1,6 @@
 //! How launches of a space are chosen.
 
-use ::toss::defaults::{LAUNCHES, SCRAMBLES, SEED, Wanted};
+use ::toss::defaults::{LAUNCHES, Launches, SCRAMBLES, SEED, Wanted};
 use ::toss::sampling::{Method, Rest, Space};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -199,10 +199,20 @@ impl Plan {
         (self.wanted.scrambles, self.wanted.seed) == (SCRAMBLES, SEED)
     }
 
+    /// A method without numbers.
+    pub(crate) fn of_method(method: Method) -> Self {
+        Self { wanted: Wanted::new(method) }
+    }
+
     /// The plan for `space`.
     pub(crate) fn plan(&self, space: &Space) -> PyResult<::toss::sampling::Plan> {
+        self.plan_of(space, LAUNCHES)
+    }
+
+    /// The same, with so many launches where none are given.
+    pub(crate) fn plan_of(&self, space: &Space, usual: Launches) -> PyResult<::toss::sampling::Plan> {
         const NONE: &str = "none for this space: exact-speed draws no launches where a grid is enough";
-        let plan = self.wanted.plan(space, LAUNCHES);
+        let plan = self.wanted.plan(space, usual);
         match (plan, self.wanted.points) {
             (::toss::sampling::Plan::ExactSpeed(Rest::Grid), Some(points)) => Err(malformed("points", points, NONE)),
             (::toss::sampling::Plan::ExactSpeed(Rest::Grid), None) if !self.has_usual_scrambles() => {
@@ -236,7 +246,7 @@ fn scrambles(value: &Bound<'_, PyAny>) -> PyResult<u64> {
 }
 
 /// The seed that an argument is or draws.
-fn seed(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+pub(crate) fn seed(value: &Bound<'_, PyAny>) -> PyResult<u64> {
     count("seed", &value.py().import("unfair_toss.given")?.call_method1("seed", (value,))?)
 }
 

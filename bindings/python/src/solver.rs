@@ -151,12 +151,17 @@ fn tolerance_of(stepping: Stepping) -> Option<f64> {
     }
 }
 
-/// The solver that an argument means: a name, or a [`Solver`].
-pub(crate) fn backend_of(argument: &Bound<'_, PyAny>) -> PyResult<Backend> {
+/// The settings of the solver that an argument means: a name, or a [`Solver`].
+pub(crate) fn config_of(argument: &Bound<'_, PyAny>) -> PyResult<SolverConfig> {
     match argument.extract::<String>() {
-        Ok(name) => Solver { config: SolverConfig::new(&name) }.backend(),
-        Err(_) => object::<Solver>("solver", argument, "the name of a solver, or a Solver")?.get().backend(),
+        Ok(name) => Ok(SolverConfig::new(&name)),
+        Err(_) => Ok(object::<Solver>("solver", argument, "the name of a solver, or a Solver")?.get().config.clone()),
     }
+}
+
+/// The solver that an argument means.
+pub(crate) fn backend_of(argument: &Bound<'_, PyAny>) -> PyResult<Backend> {
+    Solver { config: config_of(argument)? }.backend()
 }
 
 /// The solvers, each with what it solves and the names of its schemes and formulations.

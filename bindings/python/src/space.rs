@@ -1,12 +1,12 @@
 //! Distributions of launches.
 
-use ::toss::sampling::{Coordinate, named_space, named_spaces};
+use ::toss::sampling::{Axis, Coordinate, DescribedSpace, named_space, named_spaces};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
-use crate::given::{self, axis, no_others, object, optional_number, text};
+use crate::given::{self, axis, no_others, number, object, text};
 
 /// A distribution of the launches of one coin: each coordinate is independent of the others, or tied to one.
 ///
@@ -27,7 +27,7 @@ use crate::given::{self, axis, no_others, object, optional_number, text};
 ///     In m/s²; 9.81 by default.
 /// tilt : float, tuple or str, optional
 ///     Turn about the lab's x axis before the launch in rad; 0 by default.
-/// drop : float, optional
+/// drop : float, tuple or str, optional
 ///     How far below their launch the coins land, in m; at the same height by default.
 /// body : str or Body
 ///     A name of the catalogue, or a body; the paper's coin by default.
@@ -56,14 +56,12 @@ impl Space {
         others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         no_others::<Self>(speed.py(), others)?;
-        let axes = [rate_x, rate_y, rate_z, Some(speed), gravity, tilt, turn, psi];
+        let axes = [rate_x, rate_y, rate_z, Some(speed), gravity, tilt, turn, psi, drop];
         let given = Coordinate::ALL.into_iter().zip(axes).filter_map(|(of, given)| Some((of, given?)));
         let texts = given.map(|(of, given)| Ok((of, axis(of.name(), given)?))).collect::<PyResult<Vec<_>>>()?;
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
         let body = body.map_or(Ok(::toss::Coin::PAPER.into()), |body| Ok::<_, PyErr>(body_of(body)?.get().body))?;
-        let drop = optional_number("drop", drop)?;
-        let space = ::toss::sampling::Space::parse(body, &texts).and_then(|space| space.with_drop(drop));
-        Ok(Self { space: space.map_err(Failure::from)? })
+        Ok(Self { space: ::toss::sampling::Space::parse(body, &texts).map_err(Failure::from)? })
     }
 
     /// A space that comes with the package.
@@ -76,6 +74,41 @@ impl Space {
     fn named(name: &Bound<'_, PyAny>) -> PyResult<Self> {
         let name = text("name", name, "the name of a space")?;
         Ok(Self { space: named_space(&name).map_err(|error| Failure::from(error).of("name"))? })
+    }
+
+    /// A space from a file in TOML, as ``--space FILE.toml`` reads it.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     The text of the file.
+    #[staticmethod]
+    fn from_toml(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = self::text("text", text, "a space as TOML")?;
+        let read = DescribedSpace::from_toml(&text).map_err(|error| Failure::from(error).of("text"));
+        Ok(Self { space: read?.space })
+    }
+
+    /// The same space, thrown by a hand, as ``--spread`` has it.
+    ///
+    /// Parameters
+    /// ----------
+    /// spread : float
+    ///     Each rate and the speed that has a single value is normal around it, with the standard deviation ``spread`` times the
+    ///     value; from 0 to 0.12.
+    fn with_spread(&self, spread: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self { space: self.space.thrown_by_hand(number("spread", spread)?).map_err(Failure::from)? })
+    }
+
+    /// The same space with another height of landing.
+    ///
+    /// Parameters
+    /// ----------
+    /// drop : float, tuple or str
+    ///     How far below their launch the coins land, in m.
+    fn with_drop(&self, drop: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let axis = Axis::parse(Coordinate::Drop, &axis("drop", drop)?).map_err(Failure::from)?;
+        Ok(Self { space: self.space.with_axis(Coordinate::Drop, axis).map_err(Failure::from)? })
     }
 
     /// The same space for another coin or body.

@@ -321,6 +321,13 @@ def test_two_threads_may_read_the_same_columns_but_not_write_the_same_result(lau
     assert (out[:1000] == ut.cos_tilt(*(column[:1000] for column in launches))).all()
 
 
+def same(function, found, expected, arguments) -> bool:
+    """To the bit, but for cos θ of the kernels in which all varies, which is right to 1e-15."""
+    if function is ut.cos_tilt and not set(arguments) & {"body", "solver"}:
+        return np.abs(np.subtract(found, expected)).max() < 1.2e-15
+    return np.all(found == expected)
+
+
 GRAVITY = [9.81, 9.81, 1.62, 9.81, 3.7]
 TILT = [0.0, 0.5, 0.5, -1.0]
 
@@ -333,14 +340,16 @@ def test_gravity_and_tilt_are_columns_with_the_bits_of_one_at_a_time(arguments, 
     for function in (ut.cos_tilt, ut.outcome, ut.attitude):
         one = lambda g, t: function(rate, 2.0, rate[::-1], 2.5, gravity=g, tilt=t, **arguments)
         expected = np.array([[one(g, t) for t in TILT] for g in GRAVITY])
-        assert (function(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments) == expected).all()
-        assert (function(rate[:5], 2, rate[4::-1], 2.5, gravity=GRAVITY, **arguments)[2] == function(rate[2], 2, rate[2], 2.5, gravity=1.62, **arguments)).all()
+        found = function(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments)
+        assert same(function, found, expected, arguments)
+        found = function(rate[:5], 2, rate[4::-1], 2.5, gravity=GRAVITY, **arguments)[2]
+        assert same(function, found, function(rate[2], 2, rate[2], 2.5, gravity=1.62, **arguments), arguments)
     found = ut.count(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments)
     faces = ut.outcome(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments)
     assert (found.heads, found.tails, found.points) == ((faces == 1).sum(), (faces == -1).sum(), faces.size)
     assert found.certified == (arguments.get("solver") != "quaternion")
     timed = ut.cos_tilt(rate, 1, 1, time=1.0, tilt=rate, **arguments)
-    assert timed[7] == ut.cos_tilt(rate[7], 1, 1, time=1.0, tilt=rate[7], **arguments)
+    assert same(ut.cos_tilt, timed[7], ut.cos_tilt(rate[7], 1, 1, time=1.0, tilt=rate[7], **arguments), arguments)
 
 
 ATTITUDE = np.array([(1, 0, 0, 0), (0.5, 0.1, -0.3, 2.0), (0.5, 0.1, -0.3, 2.0), (0.5, 0.1, -0.3, -2.0), (0.8, 0.6, 0, 0)])
@@ -353,13 +362,13 @@ def test_attitudes_are_columns_with_the_bits_of_one_at_a_time(arguments, threads
     for function in (ut.cos_tilt, ut.outcome, ut.attitude):
         expected = np.array([function(rate, 2.0, rate[::-1], 2.5, attitude=one, **arguments) for one in ATTITUDE])
         for given in (ATTITUDE[:, None], ATTITUDE[:, None].tolist(), np.repeat(ATTITUDE[:, None], 70, axis=1)):
-            assert (function(rate, 2.0, rate[::-1], 2.5, attitude=given, **arguments) == expected).all()
-        same = np.tile(ATTITUDE[1], (70, 1))
-        assert (function(rate, 2.0, rate[::-1], 2.5, attitude=same, **arguments) == expected[1]).all()
+            assert same(function, function(rate, 2.0, rate[::-1], 2.5, attitude=given, **arguments), expected, arguments)
+        alike = np.tile(ATTITUDE[1], (70, 1))
+        assert same(function, function(rate, 2.0, rate[::-1], 2.5, attitude=alike, **arguments), expected[1], arguments)
         turns = Rotation.from_quat(ATTITUDE, scalar_first=True)
         quaternions = turns.as_quat(scalar_first=True)
         one = np.array([function(3, 2, 1, 2.5, attitude=one, **arguments) for one in quaternions])
-        assert (function(3, 2, 1, 2.5, attitude=turns, **arguments) == one).all()
+        assert same(function, function(3, 2, 1, 2.5, attitude=turns, **arguments), one, arguments)
     faces = ut.outcome(rate, 2.0, rate[::-1], 2.5, attitude=ATTITUDE[:, None], gravity=rate, **arguments)
     found = ut.count(rate, 2.0, rate[::-1], 2.5, attitude=ATTITUDE[:, None], gravity=rate, **arguments)
     assert (found.heads, found.tails, found.points) == ((faces == 1).sum(), (faces == -1).sum(), faces.size)
@@ -377,7 +386,8 @@ def test_drops_and_attitudes_are_columns_with_the_bits_of_single_tosses(argument
     toss = lambda x, h, q: ut.toss(ut.Toss((x, 2, 9), speed=2.5, drop=h, attitude=q, body=body), solver)
     single = [[toss(x, h, q) for h in DROP] for x, q in zip(rate[:, 0], ATTITUDE, strict=True)]
     settings = {"drop": drop, "attitude": ATTITUDE[:, None], "threads": threads} | arguments
-    assert ut.cos_tilt(rate, 2, 9, 2.5, **settings).tolist() == [[one.cos_tilt for one in row] for row in single]
+    expected = [[one.cos_tilt for one in row] for row in single]
+    assert same(ut.cos_tilt, ut.cos_tilt(rate, 2, 9, 2.5, **settings), expected, arguments)
     assert (ut.attitude(rate, 2, 9, 2.5, **settings) == [[one.attitude for one in row] for row in single]).all()
     faces = ut.outcome(rate, 2, 9, 2.5, **settings)
     assert [[{1: "heads", -1: "tails", 0: "undecided"}[face] for face in row] for row in faces.tolist()] == [

@@ -13,12 +13,15 @@ import pandas
 import pytest
 
 import unfair_toss as ut
+from conftest import ROOT
 from unfair_toss import errors
 
 TOSS = ut.Toss((1.0, 1.0, 2.5), speed=3.0)
 SPACE = ut.Space.named("paper-fig4")
+GRID = ut.Space(rate_x=(1, 2, 3), rate_y=0, rate_z=(1, 2, 3), speed=(3, 4, 3))
 PLAN = ut.Plan.random(100)
 TALLY = ut.tally(SPACE, PLAN)
+TOML = (ROOT / "crates" / "sampling" / "spaces" / "tails.toml").read_text(encoding="utf-8")
 AXES = {"rate_x": 1, "rate_y": 1, "rate_z": 1, "speed": 1}
 COLUMNS = {"rate_x": 1.0, "rate_y": 1.0, "rate_z": 2.5, "speed": 3.0}
 
@@ -95,6 +98,9 @@ CALLS = {
     "Space of turns": (ut.Space, {"turn": (6.0, 7.0), "psi": "60deg:80deg", "speed": 3.0}),
     "Space.named": (ut.Space.named, {"name": "tails"}),
     "Space.with_body": (SPACE.with_body, {"body": "paper"}),
+    "Space.with_drop": (SPACE.with_drop, {"drop": 0.5}),
+    "Space.with_spread": (ut.Space(**AXES).with_spread, {"spread": 0.05}),
+    "Space.from_toml": (ut.Space.from_toml, {"text": TOML}),
     "Space.from_json": (ut.Space.from_json, {"text": SPACE.to_json()}),
     "Plan.random": (ut.Plan.random, {"points": 10, "seed": 1}),
     "Plan.sobol": (ut.Plan.sobol, {"points": 16, "scrambles": 4, "seed": 1}),
@@ -104,12 +110,27 @@ CALLS = {
     "Plan.points": (PLAN.points, {"space": SPACE}),
     "Plan.from_json": (ut.Plan.from_json, {"text": PLAN.to_json()}),
     "Tally.from_json": (ut.Tally.from_json, {"text": TALLY.to_json()}),
-    "toss": (ut.toss, {"toss": TOSS, "solver": "exact"}),
+    "toss": (ut.toss, {"toss": TOSS, "solver": "quaternion", "prove": True}),
+    "sensitivity": (ut.sensitivity, {"toss": TOSS}),
+    "compare": (ut.compare, {"toss": TOSS, "rtol": 1e-6, "step": 0.1, "formulation": "all"}),
+    "limit": (ut.limit, {"body": "paper", "points": 5, "seed": 1, "solver": "exact", "threads": 1}),
+    "limit by a generator": (ut.limit, {"points": 5, "rng": 1}),
+    "spread": (ut.spread, {"toss": TOSS, "heads": 0.9, "points": 16, "seed": 1, "threads": 1}),
+    "spread by a generator": (ut.spread, {"toss": TOSS, "heads": 0.9, "points": 16, "rng": 1}),
+    "map": (ut.map, {"space": GRID, "across": "rate_x", "up": "rate_z", "plan": PLAN, "solver": "exact", "threads": 1}),
+    "convergence": (ut.convergence, {"space": GRID, "steps": 3, "seed": 1, "solver": "exact", "threads": 1}),
+    "convergence by a generator": (ut.convergence, {"space": GRID, "rng": 1}),
+    "sampling_errors": (
+        ut.sampling_errors, {"space": SPACE, "replicates": 2, "up_to": 8, "reference": 0.6, "threads": 1}
+    ),
+    "sample": (ut.sample, {"space": GRID, "points": 5, "method": "sobol", "seed": 1, "solver": "exact", "threads": 1}),
+    "sample by a generator": (ut.sample, {"space": GRID, "points": 5, "rng": 1}),
     "margins": (ut.margins, {"toss": TOSS}),
     "intervals": (ut.intervals, {"toss": TOSS, "slowest": 1.0}),
     "trace": (ut.trace, {"toss": TOSS, "points": 5, "solver": "exact"}),
     "trace by steps": (ut.trace, {"toss": TOSS, "dt": 0.1}),
     "inverse": (ut.inverse, {"probability": 0.8, "body": "paper"}),
+    "inverse of counts": (ut.inverse, {"counts": (60, 100)}),
     "rate_of_precession": (ut.rate_of_precession, {"turn": 240.0, "psi": 1.4, "body": "us-quarter"}),
     "power": (ut.power, {"share": 0.51, "sd": 0.02, "power": 0.9, "people": 25, "flips": 200}),
     "same_side_bias": (ut.same_side_bias, {"same_side": 60, "tosses": 100, "body": "paper"}),
@@ -169,7 +190,7 @@ def test_a_hostile_value_is_refused_by_the_name_of_its_argument(name, argument, 
     assert refused >= (10 if argument in ("progress", "executor") else 20)
 
 
-TEXTS = {"want", "solver", "method", "scheme", "formulation", "name", "body", "text", "folder"}
+TEXTS = {"across", "up", "want", "solver", "method", "scheme", "formulation", "name", "body", "text", "folder"}
 NO_NUMBERS = [
     "True", "numpy True", "b'x'", "1+2j", "masked", "datetime64", "timedelta64", "timedelta", "dict", "set", "truth values",
     "texts", "True in a list", "a text in a list", "masked in a list", "a span in a list", "a masked array", "objects",
@@ -177,7 +198,7 @@ NO_NUMBERS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS | {"dense_output"}], ids=lambda value: value)
+@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS | {"dense_output", "prove"}], ids=lambda value: value)
 def test_what_would_change_its_meaning_is_no_number(name, argument):
     call, right = CALLS[name]
     for words in NO_NUMBERS:
@@ -236,9 +257,9 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "PeopleSpread", "Solution", "Power", "SameSideBias", "Trace", "Work"}
+    answers = {"Choice", "Comparison", "Convergence", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Limit", "Map", "Margins", "MethodErrors", "PeopleSpread", "Sample", "Sensitivity", "Solution", "Spread", "SpreadAlone", "Power", "SameSideBias", "Trace", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
-    without_arguments = {"bodies", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
+    without_arguments = {"bodies", "models", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}
     tried = {words.split(" ")[0] for words in CALLS}
     assert (methods | functions) - without_arguments == tried

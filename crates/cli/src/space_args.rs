@@ -7,7 +7,7 @@ use clap::Args;
 use dynamics::thrown::{Field, Thrown};
 use rayon::ThreadPoolBuilder;
 use sampling::{
-    Axis, AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
+    Axis, AxisOrTie, Coordinate, DescribedSpace, Method, Plan, Rest, Sampler, Space, named_space, named_spaces,
 };
 use toss::Error;
 use toss::defaults::{LAUNCHES, LAUNCHES_OF_A_NODE, Launches, MOST_OF_BODIES, SEED, Wanted};
@@ -76,15 +76,7 @@ impl SpaceArgs {
             },
             None => self.space_of_axes()?,
         };
-        let Some(spread) = self.spread else { return Ok(space) };
-        let spreading = space.with_spread(spread, &[HAND.as_slice(), &[Coordinate::Turn]].concat())?;
-        if spreading == space {
-            return Err(Failure::usage(
-                "spread",
-                "--spread has no effect: no rate and no speed has a single value but 0",
-            ));
-        }
-        Ok(spreading)
+        Ok(self.spread.map_or(Ok(space), |spread| space.thrown_by_hand(spread))?)
     }
 
     fn space_of_axes(&self) -> Result<Space, Failure> {

@@ -69,7 +69,7 @@ pub use estimate::{Estimate, Found, IntervalKind};
 pub use fold::{Narrowed, Progress, Stop};
 pub use interval::{Interval, clopper_pearson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
-pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
+pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightLine, LongFlightShare, listed_cone_angles};
 pub use map::{Map, Node, map_nodes};
 pub use people::Spread;
 pub use people_file::{CountsError, Named, people};
@@ -80,10 +80,12 @@ pub use random::random_tosses;
 pub use same_side::{Cone, FEW_PEOPLE, SameSide, SameSideBias};
 pub use sampler::Sampler;
 pub use sequence::NextStart;
-pub use series::{ESTIMATORS, Estimator, RunningStep, rms_error};
+pub use series::{ESTIMATORS, ErrorLine, Errors, Estimator, MethodErrors, RunningStep, rms_error};
 pub use space::{AxisOrTie, Space};
 pub use space_builder::SpaceBuilder;
 #[cfg(feature = "serde")]
 pub use space_file::{DescribedSpace, named_space, named_spaces};
-pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, MOST_LOOKS, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
+pub use spread::{
+    Alone, HAND, LARGEST_SPREAD, LargestSpread, MOST_LOOKS, RESOLUTION, SMALLEST_SPREAD, Spreads, SufficientSpread,
+};
 pub use tally::Tally;

@@ -37,6 +37,43 @@ pub struct LongFlightShare {
     pub estimate: Estimate,
 }
 
+/// A [`LongFlightShare`] as plain data: ψ (rad), the limit, the number of flights, the share of heads among them with its 95 %
+/// interval, and the number of undecided flights if any flight of a list is undecided.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LongFlightLine {
+    cone_angle: f64,
+    limit: f64,
+    launches: u64,
+    share: Option<f64>,
+    share_lo: Option<f64>,
+    share_hi: Option<f64>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    undecided: Option<u64>,
+}
+
+impl LongFlightLine {
+    /// The lines of `shares`.
+    pub fn list(shares: &[LongFlightShare]) -> Vec<Self> {
+        let is_undecided = shares.iter().any(|found| found.estimate.undecided() > 0);
+        let line = |LongFlightShare { cone_angle, limit, estimate }: &LongFlightShare| Self {
+            cone_angle: *cone_angle,
+            limit: *limit,
+            launches: estimate.points,
+            share: estimate.is_known().then_some(estimate.probability),
+            share_lo: estimate.interval.map(|interval| interval.lo),
+            share_hi: estimate.interval.map(|interval| interval.hi),
+            undecided: is_undecided.then(|| estimate.undecided()),
+        };
+        shares.iter().map(line).collect()
+    }
+}
+
+/// The angles ψ (rad) for which shares are listed: 30° to 90° in steps of 2.5°. Beyond 90° the curve is the mirror image.
+pub fn listed_cone_angles() -> Vec<f64> {
+    (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect()
+}
+
 impl Sampler<'_> {
     /// Estimates, for each of `cone_angles` = ψ (rad), the share of heads among `points` flights of
     /// [`LONG_FLIGHT_TURNS`] at random speeds. Each angle has random numbers of its own: the seed is `seed` for the

@@ -169,6 +169,100 @@ impl Estimator {
     }
 }
 
+/// The error of a method with a number of launches.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ErrorLine {
+    /// The name of the method.
+    pub method: &'static str,
+    /// The number of launches.
+    pub launches: u64,
+    /// The root mean square of the errors.
+    pub rms_error: f64,
+    /// The number of seeds.
+    pub replicates: usize,
+    /// The probability from which errors are measured.
+    pub reference: f64,
+    /// A bound of its own error.
+    pub reference_error: f64,
+}
+
+/// How the errors of all [`ESTIMATORS`] are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MethodErrors {
+    /// The number of seeds.
+    pub replicates: u64,
+    /// The largest number of launches is 2 to this power.
+    pub up_to: u32,
+    /// The probability from which errors are measured; that of exact-speed with 64 times as many launches if none is given.
+    pub reference: Option<f64>,
+}
+
+/// The errors of all methods, with the probability from which they are measured and a bound of its own error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// The errors, by method and number of launches.
+    pub lines: Vec<ErrorLine>,
+    /// The probability.
+    pub reference: f64,
+    /// A bound of its error.
+    pub reference_error: f64,
+}
+
+impl MethodErrors {
+    /// The numbers of launches with which each method is run.
+    fn sizes(&self) -> impl Iterator<Item = u64> + use<> {
+        (8..=self.up_to).map(|exponent| 1 << exponent)
+    }
+
+    /// The number of launches of the reference.
+    fn reference_launches(&self) -> u64 {
+        64 << self.up_to
+    }
+
+    /// The number of all launches together.
+    pub fn launches(&self) -> u64 {
+        let seeds = |estimator: &Estimator| if estimator.is_random { self.replicates } else { 1 };
+        let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * self.sizes().sum::<u64>();
+        all + if self.reference.is_some() { 0 } else { self.reference_launches() }
+    }
+
+    /// The errors over `space`; those that are complete when it is time to end.
+    ///
+    /// # Errors
+    /// [`InputError::OutsideModel`] for a body with I1 ≠ I2; as [`Sampler::estimate`].
+    pub fn measure(&self, sampler: &Sampler<'_>, space: &Space) -> Result<Errors, Error> {
+        if space.coin().is_none() {
+            let why = "errors compares all methods, and exact-speed is for coins; this body has I1 ≠ I2";
+            return Err(InputError::OutsideModel { field: "coin", why }.into());
+        }
+        let (reference, reference_error) = self.reference(sampler, space)?;
+        let mut lines = Vec::new();
+        for estimator in ESTIMATORS {
+            for launches in self.sizes() {
+                let estimates = match estimator.estimates(sampler, space, launches, self.replicates) {
+                    Err(Error::Ended) if !lines.is_empty() => return Ok(Errors { lines, reference, reference_error }),
+                    estimates => estimates?,
+                };
+                let (rms_error, replicates) = (rms_error(&estimates, reference), estimates.len());
+                let method = estimator.name;
+                lines.push(ErrorLine { method, launches, rms_error, replicates, reference, reference_error });
+            }
+        }
+        Ok(Errors { lines, reference, reference_error })
+    }
+
+    fn reference(&self, sampler: &Sampler<'_>, space: &Space) -> Result<(f64, f64), Error> {
+        if let Some(probability) = self.reference {
+            return Ok((probability, 0.0));
+        }
+        // Seed 0 is the reference's own: the replicates have other seeds.
+        let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(self.reference_launches(), 0)));
+        let found = sampler.estimate(space, plan)?;
+        Ok((found.probability, found.half_width().unwrap_or(0.0)))
+    }
+}
+
 /// Root of the mean square of the differences between `estimates` and the true `probability`.
 #[expect(clippy::cast_precision_loss, reason = "a handful of estimates")]
 pub fn rms_error(estimates: &[f64], probability: f64) -> f64 {

@@ -33,6 +33,7 @@ use exact::certify;
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
 use crate::estimate::{Estimate, Found};
+use crate::interval::Interval;
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
 use crate::space::Space;
@@ -125,7 +126,47 @@ pub struct SufficientSpread {
     pub at_least: f64,
 }
 
+/// The largest spread of a hand, and that of each of its inputs alone.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Spreads {
+    /// Of all inputs together.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub together: LargestSpread,
+    /// The interval of P(heads) at this spread, if one suffices.
+    pub interval: Option<Interval>,
+    /// What this interval is, in words.
+    pub interval_kind: Option<String>,
+    /// Of each input of a [`HAND`] alone; fewer if it was time to end.
+    pub alone: Vec<Alone>,
+}
+
+/// The largest spread of a single input.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Alone {
+    /// The name of the input.
+    pub input: &'static str,
+    /// The spread.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub found: LargestSpread,
+}
+
 impl Space {
+    /// The same space, thrown by a hand: each rate, the speed and the turn that has a single value is normal around it, as of
+    /// [`Space::with_spread`].
+    ///
+    /// # Errors
+    /// As [`Space::with_spread`], and [`InputError::Malformed`] if no rate and no speed has a single value but 0.
+    pub fn thrown_by_hand(self, spread: f64) -> Result<Self, InputError> {
+        let spreading = self.with_spread(spread, &[HAND.as_slice(), &[Coordinate::Turn]].concat())?;
+        if spreading == self {
+            let expected = "a rate or a speed with a single value other than 0, which it widens";
+            return Err(InputError::Malformed { field: "spread", value: spread.to_string(), expected });
+        }
+        Ok(spreading)
+    }
+
     /// The same space, in which each coordinate of `inputs` that has a single value x ≠ 0 is normal with the mean x and
     /// the standard deviation `spread` |x|.
     ///
@@ -142,6 +183,29 @@ impl Space {
 }
 
 impl Sampler<'_> {
+    /// The largest spreads of a [`HAND`] that throws `space`, together and alone, with so many `points` for each estimate;
+    /// 16384 by default, 2048 for a body with I1 ≠ I2.
+    ///
+    /// # Errors
+    /// As [`Sampler::largest_spread`].
+    pub fn spreads(&self, space: &Space, heads: f64, points: Option<u64>, seed: u64) -> Result<Spreads, Error> {
+        let usual = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
+        let scrambled = Scrambled::new(points.unwrap_or(usual), seed);
+        let largest = |inputs: &[Coordinate]| self.largest_spread(space, inputs, heads, scrambled);
+        let together = largest(&HAND)?;
+        let mut alone = Vec::new();
+        for of in HAND {
+            match largest(&[of]) {
+                Err(Error::Ended) => break,
+                found => alone.push(Alone { input: of.name(), found: found? }),
+            }
+        }
+        let estimate = together.sufficient().map(|found| &found.estimate);
+        let interval = estimate.and_then(|found| found.interval);
+        let interval_kind = estimate.map(|found| found.interval_kind.to_string());
+        Ok(Spreads { together, interval, interval_kind, alone })
+    }
+
     /// The largest relative spread of the coordinates `inputs` of `space`, which have single values, with which heads has
     /// at least the probability `heads`, and so at all smaller spreads from [`SMALLEST_SPREAD`] on, up to [`RESOLUTION`]. It
     /// is found to 1e-5 of itself, with `scrambled` Sobol points for each estimate and at most [`MOST_LOOKS`] estimates.

@@ -39,6 +39,20 @@ pub const LAUNCHES: Launches = Launches { random: 250_000, sobol: 1 << 18 };
 /// The launches of each node of a map.
 pub const LAUNCHES_OF_A_NODE: Launches = Launches { random: 1024, sobol: 1024 };
 
+/// The number of flights at each angle ψ, whose share is compared with the limit of long flights.
+pub const LONG_FLIGHTS: u64 = 1000;
+
+/// The number of seeds over which the errors of methods are measured, and the power of 2 that is the largest number of launches.
+pub const REPLICATES: u64 = 16;
+
+/// See [`REPLICATES`].
+pub const UP_TO: u32 = 18;
+
+/// The number of steps in which the convergence of `points` launches is shown.
+pub fn steps(points: u64) -> u64 {
+    points.min(500)
+}
+
 /// The largest error of P(heads) over `space`.
 pub fn accuracy(space: &Space) -> f64 {
     if space.coin().is_some() { ACCURACY } else { ACCURACY_OF_BODIES }

@@ -6,7 +6,7 @@ use dynamics::{
 };
 use exact::{ExactSolver, Margin, STAGES, Sensitivity, margin};
 use kinematics_quat::{IntegratedCounts, QuaternionSolver};
-use sampling::{Counts, Found, IntervalKind};
+use sampling::{Counts, Found, IntervalKind, Node};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -287,6 +287,40 @@ pub fn candidates(
         }
     }
     Ok(all)
+}
+
+/// A map of P(heads) as plain data.
+#[derive(Debug, Serialize)]
+pub struct Map<'a> {
+    across: &'static str,
+    up: &'static str,
+    across_values: &'a [f64],
+    up_values: &'a [f64],
+    /// A row for each value of `up`; `None` where no launch is decided.
+    probability: Vec<Vec<Option<f64>>>,
+    /// Likewise the numbers of undecided launches, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<Vec<Vec<u64>>>,
+}
+
+impl<'a> From<&'a sampling::Map> for Map<'a> {
+    fn from(map: &'a sampling::Map) -> Self {
+        let ((across, columns), (up, rows)) = (&map.across, &map.up);
+        let is_undecided = map.nodes.iter().any(|node| node.undecided > 0);
+        Self {
+            across: across.name(),
+            up: up.name(),
+            across_values: columns,
+            up_values: rows,
+            probability: rows_of(map, |node| node.probability),
+            undecided: is_undecided.then(|| rows_of(map, |node| node.undecided)),
+        }
+    }
+}
+
+/// A value of each node, row by row.
+fn rows_of<T>(map: &sampling::Map, value: impl Fn(&Node) -> T) -> Vec<Vec<T>> {
+    map.nodes.chunks(map.across.1.len()).map(|row| row.iter().map(&value).collect()).collect()
 }
 
 /// An estimate of P(heads) as plain data, with the counts of proofs by integration if they decided all outcomes.

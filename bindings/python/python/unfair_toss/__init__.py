@@ -6,32 +6,43 @@ An attitude is the unit quaternion (w, x, y, z) from the body to the laboratory.
 """
 
 from . import errors, given
-from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
+from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, models, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
 from .results import DenseOutput, Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Solution, Trace, Work
 from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, power, rate_of_precession, same_side_bias, toss, trace
 from .solving import solve
+from .studies import compare, convergence, limit, map, sample, sampling_errors, sensitivity, spread
+from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone
 from .tallies import tally
 
 __all__ = [
     "Body",
     "Choice",
+    "Comparison",
+    "Convergence",
     "Counts",
     "DenseOutput",
     "Estimate",
     "Intervals",
     "Inverse",
     "Landing",
+    "Limit",
+    "Map",
     "Margins",
+    "MethodErrors",
     "PeopleSpread",
     "Plan",
     "Power",
     "SameSideBias",
+    "Sample",
+    "Sensitivity",
     "Solution",
     "Solver",
     "Space",
+    "Spread",
+    "SpreadAlone",
     "Tally",
     "Toss",
     "Trace",
@@ -39,23 +50,32 @@ __all__ = [
     "__version__",
     "attitude",
     "bodies",
+    "compare",
+    "convergence",
     "cos_tilt",
     "count",
     "errors",
     "estimate",
     "intervals",
     "inverse",
+    "limit",
+    "map",
     "margins",
     "merge",
+    "models",
     "outcome",
     "plan",
     "power",
     "probability",
     "rate_of_precession",
     "same_side_bias",
+    "sample",
+    "sampling_errors",
+    "sensitivity",
     "solve",
     "solvers",
     "spaces",
+    "spread",
     "tally",
     "toss",
     "trace",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -44,10 +46,93 @@ class Counts(ShownAsTable):
         return self.heads / decided if decided else float("nan")
 
 
+_One: TypeAlias = float | np.floating[Any] | np.integer[Any] | str
+_Number = TypeVar("_Number", np.float64, np.int8)
+
+
+class Labelled(Protocol):
+    """A series of pandas or an array of xarray."""
+
+    @property
+    def attrs(self) -> Any: ...
+    @property
+    def size(self) -> int: ...
+
+
+_Labels = TypeVar("_Labels", bound=Labelled)
+
+
+class OfColumns(Protocol[_Number]):
+    """A function of columns: of numbers it gives a number, of what has labels the same, of arrays an array."""
+
+    @overload
+    def __call__(  # type: ignore[overload-overlap]
+        self,
+        rate_x: _One,
+        rate_y: _One,
+        rate_z: _One,
+        speed: _One | None = None,
+        *,
+        time: _One | None = None,
+        gravity: _One | None = None,
+        drop: _One | None = None,
+        tilt: _One | None = None,
+        attitude: Attitudes | None = None,
+        body: str | Body = "paper",
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: None = None,
+    ) -> _Number: ...
+
+    @overload
+    def __call__(  # type: ignore[overload-overlap]
+        self,
+        rate_x: _Labels | _One,
+        rate_y: _Labels | _One,
+        rate_z: _Labels | _One,
+        speed: _Labels | _One | None = None,
+        *,
+        time: _Labels | _One | None = None,
+        gravity: _Labels | _One | None = None,
+        drop: _Labels | _One | None = None,
+        tilt: _Labels | _One | None = None,
+        attitude: Attitudes | None = None,
+        body: str | Body = "paper",
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: None = None,
+    ) -> _Labels: ...
+
+    @overload
+    def __call__(
+        self,
+        rate_x: npt.ArrayLike,
+        rate_y: npt.ArrayLike,
+        rate_z: npt.ArrayLike,
+        speed: npt.ArrayLike | None = None,
+        *,
+        time: npt.ArrayLike | None = None,
+        gravity: npt.ArrayLike | None = None,
+        drop: npt.ArrayLike | None = None,
+        tilt: npt.ArrayLike | None = None,
+        attitude: Attitudes | None = None,
+        body: str | Body = "paper",
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: npt.NDArray[_Number] | None = None,
+    ) -> npt.NDArray[_Number]: ...
+
+
+def _typed(function: Callable[..., npt.NDArray[_Number]]) -> OfColumns[_Number]:
+    """The function itself, to the checkers of types one that tells numbers, arrays and what has labels."""
+    return cast("OfColumns[_Number]", function)
+
+
 STAGES = ("f64", "double_double", "multiprecision")
 """The stages of the proof, from the cheapest on, by their names in JSON."""
 
 
+@_typed
 def cos_tilt(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -78,11 +163,11 @@ def cos_tilt(
     time : array_like, optional
         Time of flight in s, instead of a speed.
     gravity : array_like, optional
-        In m/s²; 9.81 by default. It, the tilt and the attitude may be columns, too, which cost the least if equal
-        values follow each other.
+        In m/s²; 9.81 by default. It, the drop, the tilt and the attitude may be columns, too. cos θ of coins is then right to
+        1e-15.
     drop : array_like, optional
-        How far below its launch the body lands, in m; at the same height by default. Bodies with a drop are solved one
-        by one.
+        How far below its launch the body lands, in m; at the same height by default. Attitudes at landing, and bodies that are
+        not symmetric, are solved one by one with a drop.
     tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
     attitude : array_like of shape (..., 4) or scipy Rotation, optional
@@ -102,7 +187,7 @@ def cos_tilt(
     Returns
     -------
     ndarray of float64
-        cos θ in the broadcast shape, which is () if all columns are scalars. Columns of xarray are combined by their
+        cos θ in the broadcast shape; a number if all columns are. Columns of xarray are combined by their
         labels, and give a ``DataArray``; those of pandas have to have equal labels, and give a ``Series`` or a
         ``DataFrame``.
 
@@ -121,6 +206,7 @@ def cos_tilt(
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
+@_typed
 def outcome(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -152,7 +238,7 @@ def outcome(
     Returns
     -------
     ndarray of int8
-        1 for heads, -1 for tails, 0 for undecided, in the broadcast shape, which is () if all columns are scalars.
+        1 for heads, -1 for tails, 0 for undecided, in the broadcast shape; a number if all columns are.
 
     Raises
     ------
@@ -242,3 +328,4 @@ def count(
     heads, tails, undecided, without_proof, *by_stage = counts
     proven_by = None if without_proof else dict(zip(STAGES, by_stage, strict=True))
     return Counts(heads, tails, undecided, without_proof == 0 and heads + tails + undecided > 0, proven_by)
+

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from functools import wraps
 from typing import Any, TypeVar
 
+from ._native import count
 from .errors import MalformedError
 
 _Kind = TypeVar("_Kind")
@@ -65,7 +66,7 @@ def an(kind: type[_Kind], field: str, value: object) -> _Kind:
     raise wrong(field, value, f"a {kind.__name__}")
 
 
-def seed(value: Any) -> Any:
+def drawn(value: Any) -> Any:
     """The whole number that a generator of NumPy draws as a seed, or that a sequence of seeds has first; else the value."""
     random = sys.modules.get("numpy.random")
     if random is not None and isinstance(value, random.Generator):
@@ -73,6 +74,14 @@ def seed(value: Any) -> Any:
     if random is not None and isinstance(value, random.SeedSequence):
         return int(value.generate_state(1, "uint64")[0])
     return value
+
+
+def as_seed(seed: Any, rng: Any) -> int | None:
+    """The seed, by either of its names."""
+    if seed is not None and rng is not None:
+        raise MalformedError("seed and rng are the same setting", field="rng", valid="either seed or rng")
+    name, value = ("seed", seed) if rng is None else ("rng", rng)
+    return None if value is None else count(name, drawn(value))
 
 
 def a_function(field: str, value: object) -> None:
@@ -84,3 +93,6 @@ def a_function(field: str, value: object) -> None:
 def wrong(field: str, value: object, valid: str) -> MalformedError:
     """The exception of a value of another type than the argument has."""
     return MalformedError(f"{field} is of type {type(value).__name__}: expected {valid}", field=field, valid=valid)
+
+
+seed = drawn

@@ -150,6 +150,9 @@ class Launches:
             solve(columns, flat[numbers * first : numbers * (first + columns[0].size)], first)
         if result is not target:
             np.copyto(result, target)
+        if out is None and result.ndim == 0:
+            number: npt.NDArray[_Result] = result[()]  # A number of NumPy.
+            return number
         labelled: npt.NDArray[_Result] = result if self.labels is None else self.labels.put_on(result)
         return labelled
 

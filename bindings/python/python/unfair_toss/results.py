@@ -38,7 +38,8 @@ class ShownAsTable:
 def _short(value: object) -> str:
     """A value in a line: of a long array, its shape."""
     if isinstance(value, np.ndarray):
-        return str(value) if value.size <= 8 else f"array of shape {value.shape}"
+        # All digits, so that the end of an interval is not rounded inwards.
+        return np.array2string(value, floatmode="unique") if value.size <= 8 else f"array of shape {value.shape}"
     return str(value)
 
 
@@ -118,6 +119,11 @@ class _HoldsArrays:
     __dataclass_fields__: ClassVar[dict[str, Any]]
     __hash__: ClassVar[None] = None  # type: ignore[assignment]
 
+    def __repr__(self) -> str:
+        with np.printoptions(floatmode="unique", threshold=8):
+            shown = ", ".join(f"{field.name}={getattr(self, field.name)!r}" for field in fields(self))
+        return f"{type(self).__name__}({shown})"
+
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
@@ -142,7 +148,7 @@ class Work(ShownAsTable):
     rejected_steps: int
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Landing(ShownAsTable, _HoldsArrays):
     """How a toss lands.
 
@@ -153,7 +159,7 @@ class Landing(ShownAsTable, _HoldsArrays):
     certified : bool
         Whether the outcome is proven, for exactly the numbers given. Only the exact motion proves.
     proven_by : str or None
-        The stage of the proof.
+        The stage of the proof, or ``"integrated"``.
     cos_tilt : float
         cos θ, with θ the angle between the normal and the vertical.
     attitude : ndarray of shape (4,)
@@ -170,6 +176,8 @@ class Landing(ShownAsTable, _HoldsArrays):
         What computed it.
     work : Work
         Its cost.
+    error_bound, attitude_error_bound : float or None
+        With ``prove``, proven bounds of the errors of ``cos_tilt`` and of the attitude's quaternion.
     """
 
     outcome: Outcome
@@ -184,6 +192,8 @@ class Landing(ShownAsTable, _HoldsArrays):
     solver: str
     scheme: str | None
     work: Work
+    error_bound: float | None = None
+    attitude_error_bound: float | None = None
 
 
 @dataclass(frozen=True)
@@ -215,7 +225,7 @@ class Margins(ShownAsTable):
     time_range: tuple[float, float]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Intervals(ShownAsTable, _HoldsArrays):
     """The speeds that land heads.
 
@@ -231,7 +241,7 @@ class Intervals(ShownAsTable, _HoldsArrays):
     probability: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Trace(ShownAsTable, _Flight, _HoldsArrays):
     """A flight at n times.
 
@@ -312,7 +322,7 @@ class PeopleSpread(ShownAsTable):
     p_value: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SameSideBias(ShownAsTable, _HoldsArrays):
     """How often coins land on the side that had been up, and the angle ψ that explains it. Intervals are at a level of 95 %.
 
@@ -422,7 +432,7 @@ class DenseOutput:
         return states[:, 0] if times.ndim == 0 else states
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution(ShownAsTable, _Flight, _HoldsArrays):
     """A flight as a solver found it.
 

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import fields
+from typing import Any, overload
+
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from ._native import Body, Solver, Toss
+from .errors import InputError, MissingError
+from .given import wrong
 from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Trace, Work, fastest_turn
 from .units import Quantity
 
 
-def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
+def toss(toss: Toss, solver: str | Solver = "exact", *, prove: bool = False) -> Landing:
     """How a toss lands.
 
     Parameters
@@ -21,6 +27,9 @@ def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
         The body and its launch.
     solver : str or Solver
         The exact motion, or an integrator (``solvers()``).
+    prove : bool
+        Whether the outcome is proven by integration, by the solver ``"quaternion"``, with bounds of the errors. Its scheme
+        is then ``"taylor"`` unless it has another.
 
     Returns
     -------
@@ -32,7 +41,15 @@ def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     errors.SolveError
         If the solver cannot go on, or does not solve such a body.
     """
-    found = _native.land(toss, solver)
+    if not isinstance(prove, bool):
+        raise wrong("prove", prove, "True or False")
+    if prove:
+        proven = json.loads(_native.prove(toss, solver))
+        known = {field.name for field in fields(Landing)}
+        found = {name: value for name, value in proven.items() if name in known}
+        found |= {"proven_by": proven["proof"], "error_estimate": None}
+    else:
+        found = _native.land(toss, solver)
     arrays = {name: np.array(found[name]) for name in ("attitude", "rate")}
     return Landing(**found | arrays | {"work": Work(**found["work"])})
 
@@ -123,8 +140,14 @@ def trace(
     return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0], fastest_turn(toss))
 
 
-def inverse(probability: float, body: str | Body = "paper") -> Inverse:
-    """How to launch a coin from horizontal so that long flights land heads with a wanted probability.
+@overload
+def inverse(probability: float, body: str | Body = "paper") -> Inverse: ...
+@overload
+def inverse(*, counts: Any, body: str | Body = "paper") -> SameSideBias: ...
+def inverse(
+    probability: float | None = None, body: str | Body = "paper", *, counts: Any = None
+) -> Inverse | SameSideBias:
+    """How to launch a coin from horizontal so that long flights land heads with a wanted probability, or how coins were thrown.
 
     Parameters
     ----------
@@ -132,19 +155,48 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
         Above ½ and at most 1.
     body : str or Body
         A symmetric body.
+    counts : tuple of 2 ints, or a frame
+        In place of a probability: the coins that landed on the side that had been up, and all tossed; or a frame of pandas or
+        polars with the columns ``same`` and ``tosses``. Rows with the same ``person``, if it has this column, are added up.
 
     Returns
     -------
-    Inverse
-        The ratio of rates, and the angle ψ.
+    Inverse or SameSideBias
+        The ratio of rates, and the angle ψ; of counts as of ``same_side_bias``.
 
     Raises
     ------
     errors.InputError
-        For a probability outside its range, and for a body that is not symmetric.
+        For a probability outside its range, for counts that cannot be, and for a body that is not symmetric.
     """
+    if counts is not None:
+        if probability is not None:
+            raise wrong("counts", counts, "None, or no probability")
+        try:
+            return same_side_bias(*_people(counts), body)
+        except InputError as error:
+            error.field = "counts" if error.field in ("same_side", "tosses") else error.field
+            raise
+    if probability is None:
+        raise MissingError("probability is missing: expected it or counts", field="probability", valid="above ½, up to 1")
     wanted = _native.number("probability", probability)
     return Inverse(wanted, *_native.inverse(wanted, body))
+
+
+def _people(counts: Any) -> tuple[Any, Any]:
+    """The counts of each person: on the same side, and all."""
+    if isinstance(counts, tuple | list) and len(counts) == 2:
+        return counts[0], counts[1]
+    columns = list(getattr(counts, "columns", ()))
+    if not {"same", "tosses"} <= set(columns):
+        raise wrong("counts", counts, "2 whole numbers, or a frame with the columns same and tosses")
+    same, tosses = (counts[name].to_numpy() for name in ("same", "tosses"))
+    if "person" not in columns:
+        return same, tosses
+    rows: dict[Any, list[int]] = {}
+    for person, *row in zip(counts["person"].to_numpy(), same, tosses, strict=True):
+        rows[person] = [int(new) + old for new, old in zip(row, rows.get(person, [0, 0]), strict=True)]
+    return tuple(map(list, zip(*rows.values(), strict=True))) if rows else (same, tosses)  # type: ignore[return-value]
 
 
 def power(

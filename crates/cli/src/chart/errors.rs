@@ -2,30 +2,12 @@
 
 use chart::{Axis, BLUE, ChartError, EndLabel, GREEN, GREY, PURPLE, SIZE, VERMILION, end_labels, frame, pixel, svg};
 use plotters::prelude::*;
-use serde::Serialize;
+use sampling::{ErrorLine, Errors};
 
 const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, BLACK, PURPLE];
 
-/// The probability that errors are measured from, and a bound of its own error.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Reference {
-    pub(crate) probability: f64,
-    pub(crate) error: f64,
-}
-
-/// The error of a method with a number of launches.
-#[derive(Debug, Serialize)]
-pub(crate) struct ErrorLine {
-    pub(crate) method: &'static str,
-    pub(crate) launches: u64,
-    pub(crate) rms_error: f64,
-    pub(crate) replicates: usize,
-    pub(crate) reference: f64,
-    pub(crate) reference_error: f64,
-}
-
 /// The chart as SVG, of errors above 0. Its title says `of` what they are.
-pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference, of: &str) -> Result<String, ChartError> {
+pub(crate) fn errors(Errors { lines, reference_error, .. }: &Errors, of: &str) -> Result<String, ChartError> {
     let [(fewest, most), (smallest, largest)] = spans(lines).ok_or(ChartError("every error is 0".to_owned()))?;
     svg(SIZE, |root| {
         let (x, y) = (
@@ -34,8 +16,8 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference, of: &str) -> Re
         );
         let mut chart = frame(root, &format!("Error of P(heads), {of}"), (&x, &y), 420)?;
         let mut labels: Vec<EndLabel> = Vec::new();
-        if reference.error > smallest {
-            let floor = [fewest, most].map(|launches| (x.position(launches), y.position(reference.error)));
+        if *reference_error > smallest {
+            let floor = [fewest, most].map(|launches| (x.position(launches), y.position(*reference_error)));
             chart.draw_series(LineSeries::new(floor, GREY.stroke_width(2)))?;
             let y = pixel(root, &chart, floor[1]).1;
             labels.push(EndLabel { y, text: "error of the reference".to_owned(), colour: GREY });

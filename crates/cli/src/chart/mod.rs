@@ -7,7 +7,7 @@ mod map;
 mod people;
 mod solid;
 
-pub(crate) use errors::{ErrorLine, Reference, errors};
+pub(crate) use errors::errors;
 pub(crate) use flight::{flight, named, points_to_draw};
 pub(crate) use limit::limit;
 pub(crate) use map::map;

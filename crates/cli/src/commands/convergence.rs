@@ -3,7 +3,7 @@
 //! paper's Fig. 4.
 
 use sampling::{RunningStep, Sampler};
-use toss::defaults::SEED;
+use toss::defaults::{self, SEED};
 use toss::{Error, Registry};
 
 use crate::failure::Failure;
@@ -12,9 +12,6 @@ use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 use crate::watch::BudgetArgs;
-
-/// Number of steps if none is given and the grid is large enough.
-const DEFAULT_STEPS: u64 = 500;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -43,7 +40,7 @@ impl Args {
         let space = self.space.space()?;
         let backend = self.solver.backend_of_outcomes(registry)?;
         let points = space.grid_points()?;
-        let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
+        let steps = self.steps.unwrap_or(defaults::steps(points));
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);
         let steps = self.threads.ask(&asked.watch, backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
         if steps.is_empty() {

@@ -2,9 +2,8 @@
 //! other coordinates are sampled at each node.
 
 use sampling::{Coordinate, Map, Method, Node, Plan, Sampler, Space, map_nodes};
-use serde::Serialize;
 use toss::defaults::LAUNCHES_OF_A_NODE;
-use toss::{InputError, Registry};
+use toss::{InputError, Registry, report};
 
 use crate::chart;
 use crate::failure::Failure;
@@ -55,7 +54,7 @@ impl Args {
         let mapped = self.threads.ask(&asked.watch, backend.sampler(), (nodes, "nodes"), ask)?;
         let data = |format| match format {
             DataFormat::Csv => csv(&mapped),
-            DataFormat::Json => output::json(asked, &Nodes::from(&mapped)),
+            DataFormat::Json => output::json(asked, &report::Map::from(&mapped)),
         };
         self.series.answer(data, || Ok(chart::map(&mapped, &space, &self.space.words(&space))?))
     }
@@ -87,37 +86,4 @@ fn csv(map: &Map) -> String {
         format!("{column},{row},{probability}{}\n", undecided(&node.undecided.to_string()))
     });
     std::iter::once(heading).chain(lines).collect()
-}
-
-#[derive(Serialize)]
-struct Nodes<'a> {
-    across: &'static str,
-    up: &'static str,
-    across_values: &'a [f64],
-    up_values: &'a [f64],
-    /// A row for each value of `up`; `None` where no launch is decided.
-    probability: Vec<Vec<Option<f64>>>,
-    /// Likewise the numbers of undecided launches, if there are any.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    undecided: Option<Vec<Vec<u64>>>,
-}
-
-impl<'a> From<&'a Map> for Nodes<'a> {
-    fn from(map: &'a Map) -> Self {
-        let ((across, columns), (up, rows)) = (&map.across, &map.up);
-        let is_undecided = map.nodes.iter().any(|node| node.undecided > 0);
-        Self {
-            across: across.name(),
-            up: up.name(),
-            across_values: columns,
-            up_values: rows,
-            probability: table(map, |node| node.probability),
-            undecided: is_undecided.then(|| table(map, |node| node.undecided)),
-        }
-    }
-}
-
-/// A value of each node, row by row.
-fn table<T>(map: &Map, value: impl Fn(&Node) -> T) -> Vec<Vec<T>> {
-    map.nodes.chunks(map.across.1.len()).map(|row| row.iter().map(&value).collect()).collect()
 }

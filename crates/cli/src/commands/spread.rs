@@ -2,13 +2,9 @@
 //! relative spread of the launch with which heads is still as probable, and that of each input alone, and says how finely
 //! smaller spreads were looked at.
 
-use sampling::{
-    Coordinate, HAND, Interval, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Sampler, Scrambled, Space,
-    SufficientSpread,
-};
-use serde::Serialize;
+use sampling::{LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Sampler, Space, Spreads, SufficientSpread};
+use toss::Outcome;
 use toss::defaults::SEED;
-use toss::{Error, Outcome};
 
 use crate::failure::Failure;
 use crate::output::{Asked, FormatArgs};
@@ -38,54 +34,18 @@ pub(crate) struct Args {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Spreads {
-    #[serde(flatten)]
-    together: LargestSpread,
-    interval: Option<Interval>,
-    interval_kind: Option<String>,
-    alone: Vec<Alone>,
-}
-
-/// The answer if a single input spreads.
-#[derive(Serialize)]
-struct Alone {
-    input: &'static str,
-    #[serde(flatten)]
-    found: LargestSpread,
-}
-
 impl Args {
     pub(crate) fn run(&self, asked: &Asked) -> Result<String, Failure> {
         let space = Space::of(&self.toss.toss()?)?;
         let spreads = {
             asked.watch.show(None, "spreads");
-            let answers = |sampler: &Sampler<'_>| self.answers(sampler, &space);
+            let answers = |sampler: &Sampler<'_>| sampler.spreads(&space, self.heads, self.points, self.seed);
             self.threads.run(|| asked.watch.ask(Sampler::exact(), answers))??
         };
         Ok(self.format.print(asked, &spreads, || {
             let lines = text(self.heads, &spreads);
             lines.into_iter().chain(self.toss.turn_in_words()).collect::<Vec<_>>().join("\n")
         }))
-    }
-
-    /// The largest spreads of all inputs together, and of each of them alone.
-    fn answers(&self, sampler: &Sampler<'_>, space: &Space) -> Result<Spreads, Error> {
-        let default = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
-        let scrambled = Scrambled::new(self.points.unwrap_or(default), self.seed);
-        let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
-        let together = largest(&HAND)?;
-        let mut alone = Vec::new();
-        for of in HAND {
-            match largest(&[of]) {
-                Err(Error::Ended) => break,
-                found => alone.push(Alone { input: of.name(), found: found? }),
-            }
-        }
-        let estimate = together.sufficient().map(|found| &found.estimate);
-        let interval = estimate.and_then(|found| found.interval);
-        let interval_kind = estimate.map(|found| found.interval_kind.to_string());
-        Ok(Spreads { together, interval, interval_kind, alone })
     }
 }
 

@@ -7,7 +7,7 @@
 
 use dynamics::Tosses;
 use numerics::DoubleDouble;
-use numerics::lanes::{MOST_TURNS, Real, Simd};
+use numerics::lanes::{MOST_TURNS, Mask, Real, Simd};
 
 use crate::tilt_terms::terms;
 
@@ -97,6 +97,11 @@ impl Constants {
         }
     }
 
+    /// The phase ωL T per unit of ωL v0, in the unit of phases.
+    pub(super) fn phase_of_one(&self) -> f64 {
+        self.turns[0]
+    }
+
     /// The motions after launches with these rates (BF, rad/s) and speeds (m/s), which it adds to `extent`.
     #[inline(always)]
     pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
@@ -184,10 +189,16 @@ impl<S: Simd> Extent<S> {
     /// keeps.
     #[inline(always)]
     pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
+        self.are_ordinary(constants).everywhere()
+    }
+
+    /// In which lanes all tosses are ordinary.
+    #[inline(always)]
+    pub(super) fn are_ordinary(&self, constants: &Constants) -> Mask<S> {
         let Self { squared, inverse, turns, sign } = *self;
         let scale = squared.constant(1.0 / LARGEST_SQUARE);
         let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
-        extent.abs().at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
+        extent.abs().at_most(squared.constant(1.0).times_sign_of(sign))
     }
 }
 

@@ -1,0 +1,25 @@
+"""What mypy and pyright say of columns: a number of numbers, labels of what has labels, an array of arrays."""
+
+from typing import Any, assert_type
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
+
+import unfair_toss as ut
+
+rates: npt.NDArray[np.float64] = np.linspace(0.0, 50.0, 5)
+labelled = xr.DataArray(rates, dims="launch")
+generator = np.random.default_rng(1)
+
+assert_type(ut.cos_tilt(1.0, 1, "2rad/s", speed=3.0), np.float64)
+assert_type(ut.cos_tilt(rates, 1.0, 2.0, 3.0), npt.NDArray[np.float64])
+assert_type(ut.outcome([1.0, 2.0], 1.0, 2.0, 3.0, tilt=rates[:2]), npt.NDArray[np.int8])
+assert_type(ut.outcome(1.0, 1.0, labelled, 3.0), xr.DataArray)
+assert_type(ut.inverse(0.6), ut.Inverse)
+assert_type(ut.inverse(counts=(55, 100)), ut.SameSideBias)
+space = ut.Space.named("paper-fig4").with_spread(0.01)
+assert_type(ut.probability(space, ut.Plan.random(10, seed=generator)).interval, tuple[float, float] | None)
+assert_type(ut.sample(space, 10, rng=generator).outcome, npt.NDArray[np.int8])
+assert_type(ut.map(space, plan=ut.Plan.sobol(64)).probability, npt.NDArray[np.float64])
+assert_type(ut.limit(points=10).to_dict(), dict[str, npt.NDArray[Any]])
