@@ -103,7 +103,7 @@ fn cells(directions: &[Vec<Direction>], index: u32) -> Vec<Cell<'_>> {
 fn assert_contains(space: &Space, index: u32, roundings: f64) -> [u32; 2] {
     let (directions, _) = directions_of(space);
     let problem = Problem::new(space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
-    let points = [8192, 80, 18][directions.len() - 1];
+    let points = [16_384, 100, 20][directions.len() - 1];
     let [mut number, mut told] = [0; 2];
     for cell in cells(&directions, index) {
         let found = bounds_in(&problem, &cell, directions.len(), 0.0);
