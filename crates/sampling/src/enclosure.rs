@@ -363,7 +363,10 @@ impl<'a> Work<'a> {
         #[cfg(feature = "rayon")]
         let (one, other) = rayon::join(one, other);
         #[cfg(not(feature = "rayon"))]
-        let (one, other) = (one(), other());
+        let (one, other) = {
+            let (mut one, mut other) = (one, other);
+            (one(), other())
+        };
         Some(one? + other?)
     }
 }

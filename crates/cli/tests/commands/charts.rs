@@ -151,7 +151,7 @@ fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
         ("convergence --space tails --steps 3", "P(heads) of the first n launches, space tails"),
         (
             "convergence --rate-x 0:40:3 --rate-y 5 --rate-z 20 --speed 3:5:3 --drop 1 --steps 2",
-            "ωx 0:40:3, ωy 5, ωz 20, v0 3:5:3, drop 1 m",
+            "ωx 0:40:3, ωy 5, ωz 20, v0 3:5:3, drop 1",
         ),
         ("convergence --space tails --coin us-dime --drop 1 --steps 3", "space tails, Coin &apos;us-dime&apos; (k = "),
         ("errors --space cheated --up-to 9 --replicates 1 --spread 7%", "Error of P(heads), space cheated, spread 7 %"),

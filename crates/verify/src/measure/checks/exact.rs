@@ -296,18 +296,27 @@ pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
 /// The first time near that of the toss, from there on, at which `cos_tilt` has changed its sign. It only looks for a
 /// toss that is hard; the reference judges it.
 pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let rate = toss.launch.turn_rate();
-    let heads = |time: f64| cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0);
+    let step = 1.0 / toss.launch.turn_rate();
     let start = toss.launch.flight_time();
-    let first = heads(start)?;
-    let end = (1..100).map(|step| start + f64::from(step) * 0.3 / rate).find(|time| heads(*time) == Some(!first))?;
-    let (mut before, mut after) = (start.max(end - 0.3 / rate), end);
-    if heads(before)? != first {
+    let sign = cos_tilt(start)?.signum();
+    let along = |time: f64| cos_tilt(time).map(|cos_tilt| sign * cos_tilt);
+    let end = (1..30).map(|at| start + f64::from(at) * step).find(|time| along(*time).is_some_and(|at| at <= 0.0))?;
+    let (mut before, mut after) = (start.max(end - step), end);
+    let [mut ahead, mut behind] = [along(before)?, along(after)?];
+    if ahead <= 0.0 {
         return None;
     }
+    // False position, halving the value of an end that stays (Illinois), and bisection where that does not leave the ends.
     while before.next_up() < after {
-        let middle = before + 0.5 * (after - before);
-        if heads(middle)? == first { before = middle } else { after = middle }
+        let secant = before + (after - before) * (ahead / (ahead - behind));
+        let inside = before < secant && secant < after;
+        let time = if inside { secant } else { before + 0.5 * (after - before) };
+        let found = along(time)?;
+        if found > 0.0 {
+            (before, ahead, behind) = (time, found, 0.5 * behind);
+        } else {
+            (after, behind, ahead) = (time, found, 0.5 * ahead);
+        }
     }
     Some(after)
 }
