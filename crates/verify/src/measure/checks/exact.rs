@@ -10,6 +10,7 @@ use dynamics::Toss;
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use exact::{ExactMotion, TiltTerms, certify};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
+use rayon::prelude::*;
 use toss::{
     Attitude, Batch, CoinMotion, CoinToss, Error, Launch, Outcome, Sensitivity, SimdLevel, SolveError, TimeOfFlight,
 };
@@ -273,7 +274,7 @@ pub(super) fn attitude_of_body(toss: &Toss, reference: &Reference) -> Deviation 
 
 fn at_edges() -> Vec<Set> {
     let tosses = |family: &'static Family, context: &Context| {
-        launches(family, tries(context.effort) / 20, LONG).iter().filter_map(at_an_edge).collect()
+        launches(family, tries(context.effort) / 20, LONG).par_iter().filter_map(at_an_edge).collect()
     };
     // A toss without a proof is undecided.
     Set::of_families(&FAMILIES, tosses, |toss, reference| {
@@ -300,7 +301,7 @@ pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> O
     let start = toss.launch.flight_time();
     let sign = cos_tilt(start)?.signum();
     let along = |time: f64| cos_tilt(time).map(|cos_tilt| sign * cos_tilt);
-    let end = (1..30).map(|at| start + f64::from(at) * step).find(|time| along(*time).is_some_and(|at| at <= 0.0))?;
+    let end = (1..8).map(|at| start + f64::from(at) * step).find(|time| along(*time).is_some_and(|at| at <= 0.0))?;
     let (mut before, mut after) = (start.max(end - step), end);
     let [mut ahead, mut behind] = [along(before)?, along(after)?];
     if ahead <= 0.0 {
