@@ -205,7 +205,8 @@ def test_what_would_change_its_meaning_is_no_number(name, argument):
         with pytest.raises(errors.InputError) as caught:
             call(**(right | {argument: HOSTILE[words]}))
         assert isinstance(caught.value, errors.MalformedError | errors.PartError), words
-    if argument not in ("rate_x", "rate_y", "rate_z", "turn", "psi", "speed", "gravity", "tilt") or "Space" not in name:
+    axes = ("rate_x", "rate_y", "rate_z", "turn", "psi", "speed", "gravity", "tilt", "drop")
+    if argument not in axes or "Space" not in name:
         with pytest.raises(errors.InputError):
             call(**(right | {argument: "3"}))
 
