@@ -9,8 +9,8 @@
 //!
 //! The sum cancels where a slope is small compared with the others. Such a variable is left out, and c moves by its slope.
 //!
-//! Let Q be a function that is small beside ℓ. As 0 ≤ max(0, ℓ + Q) - (ℓ + Q) [ℓ > 0] ≤ max(0, |Q| - |ℓ|), the mean of max(0, ℓ + Q) is that
-//! of max(0, ℓ) and of Q where ℓ is positive, and at most the mean of |Q| more, or with M = max |Q| and the largest slope s, at most
+//! Let Q be a function that is small beside ℓ, and θ be 1 where ℓ > 0 and 0 elsewhere. As
+//! `0 ≤ max(0, ℓ + Q) - (ℓ + Q) θ ≤ max(0, |Q| - |ℓ|)`, the mean of max(0, ℓ + Q) is that of max(0, ℓ) and of Q where ℓ is positive, and at most the mean of |Q| more, or with M = max |Q| and the largest slope s, at most
 //! M²/(2 s), because ℓ has no density above 1/(2 s). Of the terms t_i t_j of Q the means where ℓ is positive follow from parts: with
 //! H_p = max(0, ℓ)^p/p! each integration by t_i raises p by one, and
 //!

@@ -15,7 +15,7 @@
 //! Φ((δ - t (1 - 1/(4ν)))/√(1 + t²/(2ν)))     (M. Abramowitz, I. A. Stegun, 26.7.10)
 //! ```
 //!
-//! The interval of the mean [over people](crate::people) is as wide as Student's or wider, so that it finds a little less. Many
+//! The interval of the mean [over people](mod@crate::people) is as wide as Student's or wider, so that it finds a little less. Many
 //! flips of few people do not help: s never falls below σ.
 
 use dynamics::InputError;

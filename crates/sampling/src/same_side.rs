@@ -3,7 +3,7 @@
 //! asin(cot²ψ)/π; see [`long_flight_probability`](crate::long_flight_probability). This file turns counts into ψ.
 //!
 //! It assumes that all launches leave flat, turn many times and have the same ψ. The angle 180° - ψ, of the opposite spin,
-//! explains them as well. People differ, and the ψ of several is that of the mean share [over people](crate::people). As p is
+//! explains them as well. People differ, and the ψ of several is that of the mean share [over people](mod@crate::people). As p is
 //! nearly quadratic in 90° - ψ, it is the ψ of the root mean square tilt, not the mean ψ.
 
 use dynamics::InputError;
