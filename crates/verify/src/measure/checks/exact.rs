@@ -69,6 +69,10 @@ pub(super) const CHECKS: &[Check] = &[
         "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. Measured: \
          the number of tosses with a difference; one is enough to fail.",
     ),
+    Check::of_library("cos-tilt-terms", Tosses(terms, Largest)).up_to(1e-18, "1").claims(
+        "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
+         without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
+    ),
     Check::of_library("rigid-cos-tilt", Tosses(|| on_long_flights(cos_tilt_of_body), Largest))
         .up_to(1e-15, "1")
         .claims(
@@ -256,6 +260,22 @@ fn outcome(batch: &Batch<'_>) -> Result<Outcome, Error> {
     let mut out = [Outcome::Undecided];
     batch.outcomes(&mut out)?;
     Ok(out[0])
+}
+
+fn terms() -> Vec<Set> {
+    vec![
+        Set::of_tries("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
+        Set::of_tries("corners", |_| corners(), terms_error),
+    ]
+}
+
+/// Error of cos θ at launch before it is rounded to f64. There the terms of cos θ add up to it without a sine or cosine
+/// of f64, whose rounding hides theirs.
+fn terms_error(toss: &CoinToss, _: &Reference) -> Deviation {
+    let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(0.0)).expect("a valid time");
+    let toss = CoinToss { launch, ..*toss };
+    let (cos_tilt, _) = CoinMotion::new(&toss).cos_tilt_parts(0.0)?;
+    Ok(Reference::new(&toss).unrounded_cos_tilt_error(cos_tilt))
 }
 
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
