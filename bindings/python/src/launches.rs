@@ -12,7 +12,7 @@ use ::toss::{
 };
 use dynamics::error::require;
 use exact::STAGES;
-use exact::batch::varying::{Attitudes, Column, Flights, PROVEN_ABOVE, Varying};
+use exact::batch::varying::{Attitudes, Column, Flights, Varying, proven};
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -198,14 +198,14 @@ impl Launches<'_> {
             self.cos_tilts_of_varying(coin, part.clone(), cos_tilts)?;
             for (index, cos_tilt) in part.zip(cos_tilts) {
                 let place = index - range.start;
-                if cos_tilt.abs() > PROVEN_ABOVE {
-                    found(place, if *cos_tilt > 0.0 { Outcome::Heads } else { Outcome::Tails }, Some(Stage::F64));
-                } else {
-                    let at = |failure: Failure| failure.at(self.first + index as u64);
-                    let verdict = self.of.verdict(&self.toss(index).map_err(at)?);
-                    let verdict = verdict.map_err(|error| at(error.into()))?;
-                    found(place, verdict.outcome(), verdict.stage().filter(|_| verdict.is_proven()));
+                if let Some(outcome) = proven(*cos_tilt) {
+                    found(place, outcome, Some(Stage::F64));
+                    continue;
                 }
+                let at = |failure: Failure| failure.at(self.first + index as u64);
+                let verdict = self.of.verdict(&self.toss(index).map_err(at)?);
+                let verdict = verdict.map_err(|error| at(error.into()))?;
+                found(place, verdict.outcome(), verdict.stage().filter(|_| verdict.is_proven()));
             }
         }
         Ok(())

@@ -5,7 +5,7 @@ use ::toss::defaults::{self, LAUNCHES_OF_A_NODE, LONG_FLIGHTS, REPLICATES, SEED,
 use ::toss::planner::MODELS;
 use ::toss::report::{self, Comparison, candidates};
 use ::toss::sampling::{
-    Coordinate, LongFlightLine, Method, MethodErrors, Sampler, Space, listed_cone_angles, map_nodes,
+    Coordinate, LongFlightLine, Method, MethodErrors, Sampler, Space, first_node, listed_cone_angles, map_nodes,
 };
 use ::toss::{
     Backend, ExactSolver, Formulation, QuaternionSolver, Registry, Sensitivity, Solver as _, Stepping, TAYLOR, Toss,
@@ -117,8 +117,7 @@ pub(crate) fn map_of(
     };
     let axes = [named("across", across)?, named("up", up)?];
     map_nodes(&space, axes).map_err(Failure::from)?;
-    let first = |space: Space, of: Coordinate| space.with_axis(of, space.axis(of).bounds()[0]);
-    let node = axes.into_iter().try_fold(space, first).map_err(Failure::from)?;
+    let node = first_node(&space, axes).map_err(Failure::from)?;
     let usual = Plan::of_method(Method::ExactSpeed);
     let plan = match plan {
         Some(plan) => crate::given::object::<Plan>("plan", plan, "a Plan")?.get().plan_of(&node, LAUNCHES_OF_A_NODE)?,
@@ -228,7 +227,7 @@ pub(crate) fn models() -> Vec<(&'static str, &'static str, &'static str, Option<
     MODELS.iter().map(|model| (model.name, model.gives, model.assumes, model.cost_ns())).collect()
 }
 
-/// Launches as rows of ωx, ωy, ωz, the speed, gravity, tilt, time of flight and cos θ; their outcomes, and which are proven.
+/// Launches as rows of ωx, ωy, ωz, the speed, gravity, drop, tilt, time of flight and cos θ; their outcomes, and which are proven.
 type Sample<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i8>>, Bound<'py, PyArray1<bool>>);
 
 /// Launches solved between two looks at whether they are still wanted.
@@ -256,7 +255,7 @@ fn landed(
     mut drawn: impl Iterator<Item = ::toss::sampling::Drawn>,
     backend: &Backend,
     stop: &Stop,
-) -> Result<Vec<([f64; 8], Verdict)>, Failure> {
+) -> Result<Vec<([f64; 9], Verdict)>, Failure> {
     let mut rows = Vec::new();
     loop {
         let first = rows.len() as u64;
@@ -270,7 +269,8 @@ fn landed(
             let landed = landed.and_then(|tilt| Ok((tilt.cos_tilt, backend.verdict(&drawn.toss, tilt)?)));
             let (cos_tilt, verdict) = landed.map_err(|error| Failure::from(error).at(first + index as u64))?;
             let [x, y, z, speed, gravity, tilt] = drawn.values;
-            Ok(([x, y, z, speed, gravity, tilt, drawn.toss.launch.flight_time(), cos_tilt], verdict))
+            let drop = drawn.toss.launch.time_of_flight().drop().unwrap_or(0.0);
+            Ok(([x, y, z, speed, gravity, drop, tilt, drawn.toss.launch.flight_time(), cos_tilt], verdict))
         };
         let solved: Vec<Result<_, Failure>> =
             chunk.par_iter().enumerate().map(|(index, drawn)| one((index, drawn))).collect();

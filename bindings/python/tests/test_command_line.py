@@ -219,6 +219,10 @@ def test_a_table_is_read_by_pandas_polars_and_arrow():
     frame = sample.to_pandas()
     again = ut.cos_tilt(frame.rate_x, frame.rate_y, frame.rate_z, frame.speed, gravity=frame.gravity, tilt=frame.tilt)
     assert isinstance(again, pandas.Series) and np.abs(again - frame.cos_tilt).max() < 1e-15
+    dropped = ut.sample(space.with_drop((0, 1)), 30, seed=4)
+    assert 0 < np.ptp(dropped.drop) < 1 and not sample.drop.any()
+    columns = {name: getattr(dropped, name) for name in ("rate_x", "rate_y", "rate_z", "speed", "gravity", "drop", "tilt")}
+    assert np.abs(ut.cos_tilt(**columns) - dropped.cos_tilt).max() < 2e-15
     polars, pyarrow = pytest.importorskip("polars"), pytest.importorskip("pyarrow")
     assert polars.DataFrame(sample)["cos_tilt"].to_list() == sample.cos_tilt.tolist()
     assert pyarrow.table(sample).column_names == list(frame.columns)

@@ -70,7 +70,7 @@ pub use fold::{Narrowed, Progress, Stop};
 pub use interval::{Interval, clopper_pearson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightLine, LongFlightShare, listed_cone_angles};
-pub use map::{Map, Node, map_nodes};
+pub use map::{Map, Node, first_node, map_nodes};
 pub use people::Spread;
 pub use people_file::{CountsError, Named, people};
 pub use plan::{Method, Plan, Rest, Scrambled};

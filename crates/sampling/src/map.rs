@@ -80,6 +80,14 @@ pub fn map_nodes(space: &Space, [across, up]: [Coordinate; 2]) -> Result<u64, In
     Ok(columns * rows)
 }
 
+/// The space that the first node of a map of `space` has its probability from.
+///
+/// # Errors
+/// As [`Space::with_axis`].
+pub fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError> {
+    axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
+}
+
 /// The grid points of a coordinate.
 fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
     let points = count(space, of)?;

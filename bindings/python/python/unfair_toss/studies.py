@@ -305,8 +305,8 @@ def sample(
         If a launch has no answer.
     """
     numbers, outcome, certified = _native.sample(space, _plan(points, method, as_seed(seed, rng)), solver, threads)
-    x, y, z, speed, gravity, tilt, time, cos_tilt = (np.ascontiguousarray(column) for column in numbers.T)
-    return Sample(x, y, z, speed, gravity, tilt, time, cos_tilt, outcome, certified)
+    x, y, z, speed, gravity, drop, tilt, time, cos_tilt = (np.ascontiguousarray(column) for column in numbers.T)
+    return Sample(x, y, z, speed, gravity, drop, tilt, time, cos_tilt, outcome, certified)
 
 
 METHODS = "grid, random, sobol"

@@ -177,7 +177,7 @@ class Comparison(Table):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Sample(Table):
-    """Launches, and how each lands. The first six are columns for ``cos_tilt`` and its siblings, by the same names.
+    """Launches, and how each lands. The first seven are columns for ``cos_tilt`` and its siblings, by the same names.
 
     Attributes
     ----------
@@ -187,6 +187,8 @@ class Sample(Table):
         In m/s.
     gravity : ndarray of float64
         In m/s².
+    drop : ndarray of float64
+        How far below its launch the coin lands, in m.
     tilt : ndarray of float64
         Turn about the lab's x axis before the launch in rad.
     flight_time : ndarray of float64
@@ -204,6 +206,7 @@ class Sample(Table):
     rate_z: _Floats
     speed: _Floats
     gravity: _Floats
+    drop: _Floats
     tilt: _Floats
     flight_time: _Floats
     cos_tilt: _Floats

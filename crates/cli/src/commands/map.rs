@@ -1,7 +1,7 @@
 //! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
 //! other coordinates are sampled at each node.
 
-use sampling::{Coordinate, Map, Method, Node, Plan, Sampler, Space, map_nodes};
+use sampling::{Coordinate, Map, Method, Node, Plan, Sampler, Space, first_node, map_nodes};
 use toss::defaults::LAUNCHES_OF_A_NODE;
 use toss::{InputError, Registry, report};
 
@@ -58,11 +58,6 @@ impl Args {
         };
         self.series.answer(data, || Ok(chart::map(&mapped, &space, &self.space.words(&space))?))
     }
-}
-
-/// The space that the first node of a map has its probability from.
-fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError> {
-    axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
 }
 
 /// The number of launches of a plan. That of the cells of an enclosure is not known before, and counts as it usually is.

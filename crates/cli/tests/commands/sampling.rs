@@ -66,12 +66,15 @@ const LONG: [(&str, &str); 11] = [
 #[test]
 fn a_command_whose_time_is_up_answers_what_it_knows() {
     for (command, known) in LONG {
-        let began = Instant::now();
         // On a busy machine the first of them may pass before anything is known.
-        let mut outputs = ["0.4", "8"].iter().map(|seconds| run(&format!("{command} --seconds {seconds}")));
+        let mut outputs = [0.4, 8.0].iter().map(|seconds| {
+            let began = Instant::now();
+            let output = run(&format!("{command} --seconds {seconds}"));
+            assert!(began.elapsed() < Duration::from_secs_f64(9.6 + seconds), "{command}: {:?}", began.elapsed());
+            output
+        });
         let output = outputs.find(|output| output.status.success());
         let output = output.unwrap_or_else(|| panic!("{command}: nothing is known after 8 s"));
-        assert!(began.elapsed() < Duration::from_secs(30), "{command}: {:?}", began.elapsed());
         assert!(stdout(&output).contains(known), "{command}: {}", stdout(&output));
         assert!(stderr(&output).contains("note: out of time, by --seconds"), "{command}: {}", stderr(&output));
     }
@@ -104,7 +107,7 @@ fn an_interrupted_command_answers_what_it_knows() {
         let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         let began = Instant::now();
         let output = child.wait_with_output().unwrap();
-        assert!(sent.success() && began.elapsed() < Duration::from_secs(8), "{command}: {:?}", began.elapsed());
+        assert!(sent.success() && began.elapsed() < Duration::from_secs(2), "{command}: {:?}", began.elapsed());
         assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
         let text = stdout(&output);
         assert!(text.contains(known) && stderr(&output).contains("note: interrupted"), "{command}: {text}");

@@ -7,24 +7,37 @@
 //! ```
 //!
 //! In units of u = 2^-53, m is off by 6u (sine and cosine 2u each of a tilt; products, norm and division of a quaternion), A,
-//! B and C by 24u |L|² in all, sine, cosine and the scale by 3u each, and φ by less than 2^-58: together less than 1e-14, a
-//! hundredth of [`PROVEN_ABOVE`].
+//! B and C by 24u |L|² in all, sine, cosine and the scale by 3u each, and φ by less than 2^-56: together less than 1e-14, a
+//! hundredth of [`PROVEN_ABOVE`]. φ, of at most 2^43 rad, has a relative error of some u² from the products, and from the root,
+//! whose rest is of the first order in the rest of d: at most ε²/8 of itself with ε = 2u v0²/d ≤ 20u, as d is at least a tenth
+//! of v0².
 
 use dynamics::attitude::vertical_in_body;
-use dynamics::{Attitude, Coin, InputError, Tosses};
+use dynamics::{Attitude, Coin, InputError, Outcome, Tosses};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd, sin_cos};
 
 use super::momentum::{Constants, Extent, without_negligible};
 use crate::tilt_terms::terms;
 
 /// |cos θ| above which the sign of a result is proven to be that of cos θ.
-pub const PROVEN_ABOVE: f64 = 1e-12;
+const PROVEN_ABOVE: f64 = 1e-12;
+
+/// The outcome that a result of [`Varying::cos_tilts`] proves; `None` next to an edge, and of one that was not solved.
+#[inline]
+pub fn proven(cos_tilt: f64) -> Option<Outcome> {
+    // Nothing is above or below a NaN.
+    match (cos_tilt > PROVEN_ABOVE, cos_tilt < -PROVEN_ABOVE) {
+        (true, _) => Some(Outcome::Heads),
+        (_, true) => Some(Outcome::Tails),
+        _ => None,
+    }
+}
 
 /// Tosses in a tile, a multiple of the number of lanes of every SIMD level.
 const TILE: usize = 128;
 
-/// The part of v0² that is left of d where the drop is negative: with less, its digits would be too few.
-const LEAST_LEFT: f64 = 1e-6;
+/// The part of v0² that is left of d where the drop is negative: with less, its rest would be too large.
+const LEAST_LEFT: f64 = 0.1;
 
 /// The limits of the gravity, and of the drop and a tilt.
 const GRAVITY: [f64; 2] = [1e-50, 1e50];

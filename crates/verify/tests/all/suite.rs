@@ -49,7 +49,8 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes()
     let needs_none = |row: &Row| row.measured == Some(0.0) || row.limit == ceiling(row);
     let by_limits = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose) || needs_none(row);
     assert!(judged.rows.iter().all(by_limits), "{:#?}", judged.rows);
-    assert!(judged.rows.iter().filter(|row| !needs_none(row)).count() > 6);
+    let owed = judged.rows.iter().filter(|row| !needs_none(row)).count();
+    assert!(owed > 10, "{owed}");
     assert_eq!(judged.proposed_limits(), None);
 
     suite.accept(&mut verified).unwrap();

@@ -7,6 +7,7 @@
 //! angle between the coin's normal n and its angular momentum S.
 
 use dynamics::Toss;
+use exact::batch::varying::{Attitudes, Column, Flights, Varying};
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use exact::{ExactMotion, TiltTerms, certify};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
@@ -55,6 +56,11 @@ pub(super) const CHECKS: &[Check] = &[
             "cos θ at landing from a batch differs from the 256-bit reference by at most the limit, for phases up to \
              1e9 rad, near changes of the outcome and at the corners of the model.",
         ),
+    Check::of_library("varying-cos-tilt", Tosses(of_varying, Largest)).up_to(1e-14, "1").claims(
+        "cos θ at landing, from the kernel whose launches each have a gravity, drop and attitude of their own, differs from \
+         the 256-bit reference by at most the limit, for phases up to 4e12 rad and landings up to the highest point. Of \
+         launches that the kernel leaves out nothing is measured.",
+    ),
     Check::of_library("batch-attitude", Tosses(|| of_batches(batched_attitude_error), Largest))
         .up_to(1e-14, "rad")
         .claims(
@@ -198,6 +204,45 @@ fn of_batches(error: OfCoin) -> Vec<Set> {
         Set::of_tries("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), error),
         Set::of_tries("corners", |_| corners(), error),
     ]
+}
+
+fn of_varying() -> Vec<Set> {
+    vec![
+        Set::of_tries("phases to 1e2", |tries| random(tries, 1e2, 11), varied_cos_tilt_error),
+        Set::of_tries("phases to 1e9", |tries| random(tries, 1e9, 13), varied_cos_tilt_error),
+        Set::of_tries("near the highest point", |tries| caught_high(random(tries, 4e12, 17)?), varied_cos_tilt_error),
+    ]
+}
+
+/// The tosses, caught above the hand: below the highest point by all that they rise, down to 1e-6 of it.
+fn caught_high(tosses: Vec<CoinToss>) -> anyhow::Result<Vec<CoinToss>> {
+    let caught = |(index, toss): (usize, CoinToss)| {
+        let (speed, gravity) = (1.0 + (index % 7) as f64, 9.81);
+        let left = 10f64.powf(-0.0595 * (index % 101) as f64);
+        let drop = -0.5 * speed * speed / gravity * (1.0 - left);
+        let flight = TimeOfFlight::BallisticTo { speed, gravity, drop };
+        Ok(CoinToss { launch: toss.launch.with_time_of_flight(flight)?, ..toss })
+    };
+    tosses.into_iter().enumerate().map(caught).collect()
+}
+
+/// The error of cos θ by the kernel of launches that vary in all; 0 of one that it leaves out.
+fn varied_cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    let one = Column::All;
+    let flights = match toss.launch.time_of_flight() {
+        TimeOfFlight::Ballistic { speed, gravity } => Flights::Level(one(speed), one(gravity)),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => Flights::Below(one(speed), one(gravity), one(drop)),
+        time => Flights::Times(one(time.seconds())),
+    };
+    let attitudes = match toss.launch.tilt() {
+        Some(tilt) => Attitudes::Tilts(one(tilt)),
+        None => Attitudes::Quaternions(toss.launch.attitude().components().map(one)),
+    };
+    let rate = toss.launch.rate();
+    let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
+    let mut found = [0.0];
+    Varying { coin: toss.coin, rates, flights, attitudes }.cos_tilts(&mut found).expect("a valid coin");
+    Ok(if found[0].is_nan() { 0.0 } else { reference.cos_tilt_error(found[0]) })
 }
 
 /// The tosses as a batch can take them: it knows no landing at another height, only how long such a flight lasts.
