@@ -213,7 +213,7 @@ fn a_report_and_its_schema_have_the_same_keys_in_both_directions() {
     // The validator sees each renamed, added and removed key, wherever it is.
     let mut objects = 0;
     each_object(&mut report.clone(), &mut |_| objects += 1);
-    assert!(objects > 15, "{objects}");
+    assert!(objects >= 15, "{objects}");
     for broken in 0..objects {
         for fault in ["renamed", "added", "removed"] {
             let (mut report, mut index) = (report.clone(), 0);

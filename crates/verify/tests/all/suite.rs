@@ -50,7 +50,7 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes()
     let by_limits = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose) || needs_none(row);
     assert!(judged.rows.iter().all(by_limits), "{:#?}", judged.rows);
     let owed = judged.rows.iter().filter(|row| !needs_none(row)).count();
-    assert!(owed > 10, "{owed}");
+    assert!(owed >= 8, "{owed}");
     assert_eq!(judged.proposed_limits(), None);
 
     suite.accept(&mut verified).unwrap();
