@@ -136,7 +136,7 @@ impl Contest {
         }
         if size.hazards {
             show("all: the atlas of hazards");
-            let atlas = Atlas::new(&registry)?;
+            let atlas = Atlas::new(&registry, Effort::Standard)?;
             for (contestant, subject) in contestants.iter_mut().zip(&at_usual) {
                 show(&format!("{}: slow and fast coins", contestant.name));
                 contestant.meet_hazards(&atlas, subject, &survey.tosses)?;

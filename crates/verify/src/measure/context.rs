@@ -132,7 +132,7 @@ impl Context {
                 let tosses = hard_tosses(context.effort).into_iter().flatten().filter(is_short).collect();
                 Ok(Survey::of(&context.subjects, tosses, Vec::new(), &context.exact))
             }),
-            atlas: Shared::by(|context| Atlas::new(&context.registry)),
+            atlas: Shared::by(|context| Atlas::new(&context.registry, context.effort)),
             search: Shared::by(search),
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),

@@ -136,6 +136,10 @@ pub const HAZARDS: &[Hazard] = &[
     },
 ];
 
+/// Hazards and distances at which all contestants together take longer than at all others, and whose neighbours have the
+/// same worst answers.
+pub(super) const SLOW: [(&str, f64); 3] = [("F6", 1e-4), ("F6", 1e-6), ("F8", 1e-3)];
+
 /// 1 or -1 by turns, from decade to decade.
 fn side(distance: f64) -> f64 {
     if distance == 0.0 || (distance.log10().round() / 2.0).fract() == 0.0 { 1.0 } else { -1.0 }

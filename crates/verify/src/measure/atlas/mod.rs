@@ -13,10 +13,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 
+use crate::measure::effort::Effort;
 use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::measure::subject::{Subject, by_scheme, usual};
-use hazards::{HAZARDS, Hazard};
+use hazards::{HAZARDS, Hazard, SLOW};
 
 /// One contestant at one distance from one hazard.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,10 +40,11 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Solves every hazard at every distance with every contestant of `registry`.
-    pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
+    /// Solves every hazard at every distance with every contestant of `registry`; with few cases, not at the [`SLOW`] ones.
+    pub fn new(registry: &[SolverEntry], effort: Effort) -> anyhow::Result<Self> {
         let contestants = contestants_at(registry, None)?;
         let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
+        let places = places.filter(|(hazard, distance)| effort.of([!SLOW.contains(&(hazard.id, *distance)), true, true]));
         let places: Vec<Place> =
             places.map(|(hazard, distance)| Place::new(hazard, distance)).collect::<Result<_, _>>()?;
         let flights: Vec<(&Place, &Subject)> =

@@ -339,7 +339,7 @@ pub(super) fn attitude_of_body(toss: &Toss, reference: &Reference) -> Deviation 
 
 fn at_edges() -> Vec<Set> {
     let tosses = |family: &'static Family, context: &Context| {
-        launches(family, tries(context.effort) / 20, LONG).par_iter().filter_map(at_an_edge).collect()
+        launches(family, tries(context.effort) / 20, LONG).par_iter().filter_map(moved_to_an_edge).collect()
     };
     // A toss without a proof is undecided.
     Set::of_families(&FAMILIES, tosses, |toss, reference| {
@@ -347,23 +347,33 @@ fn at_edges() -> Vec<Set> {
     })
 }
 
-/// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
-/// none is found.
-pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
-    let motion = ExactMotion::new(toss);
-    let edge = edge_near(toss, |time| motion.cos_tilt(time).ok())?;
-    // By turns 3 ulp before and behind the edge.
-    let ulps = (toss.launch.flight_time().to_bits() % 7) as i64 - 3;
-    let time = f64::from_bits(edge.to_bits().wrapping_add_signed(ulps));
-    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).ok()?;
-    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+/// [`at_an_edge`], looked for by the exact motion from where it is at the end of the flight: from there its phases are short.
+pub(super) fn moved_to_an_edge(toss: &Toss) -> Option<Toss> {
+    let landing = ExactMotion::new(toss).state(toss.launch.time_of_flight()).ok()?;
+    let launch = Launch::new(landing.rate, TimeOfFlight::Given(0.0)).ok()?.with_attitude(landing.attitude);
+    let (motion, start) = (ExactMotion::new(&Toss { launch, ..*toss }), toss.launch.flight_time());
+    at_an_edge(toss, |time| motion.cos_tilt(TimeOfFlight::Given(time - start)).ok())
 }
 
-/// The first time near that of the toss, from there on, at which `cos_tilt` has changed its sign. It only looks for a
-/// toss that is hard; the reference judges it.
-pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let step = 1.0 / toss.launch.turn_rate();
-    let start = toss.launch.flight_time();
+/// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss: found roughly by
+/// `cos_tilt`, and moved to the edge by the reference. `None` if none is found.
+pub(super) fn at_an_edge(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> Option<Toss> {
+    let until = |time: f64| {
+        let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(time)).ok()?;
+        Some(Toss { launch, ..*toss })
+    };
+    let near = edge_near(toss, cos_tilt)?;
+    let edge = near + Reference::of(&until(near)?).ok()?.time_to_an_edge();
+    // By turns 3 ulp before and behind the edge.
+    let ulps = (edge.to_bits() % 7) as i64 - 3;
+    (edge > 0.0).then(|| until(f64::from_bits(edge.to_bits().wrapping_add_signed(ulps)))).flatten()
+}
+
+/// A time next to the first one from that of the toss at which `cos_tilt` has changed its sign; the reference's step from
+/// there, of first order, ends within an ulp of the edge.
+fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let rate = toss.launch.turn_rate();
+    let (step, start) = (1.0 / rate, toss.launch.flight_time());
     let sign = cos_tilt(start)?.signum();
     let along = |time: f64| cos_tilt(time).map(|cos_tilt| sign * cos_tilt);
     let end = (1..8).map(|at| start + f64::from(at) * step).find(|time| along(*time).is_some_and(|at| at <= 0.0))?;
@@ -372,12 +382,17 @@ pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> O
     if ahead <= 0.0 {
         return None;
     }
+    // Its square is far below the angle of an ulp of the time.
+    let near = 0.1 * (f64::EPSILON * rate * end).sqrt();
     // False position, halving the value of an end that stays (Illinois), and bisection where that does not leave the ends.
     while before.next_up() < after {
         let secant = before + (after - before) * (ahead / (ahead - behind));
         let inside = before < secant && secant < after;
         let time = if inside { secant } else { before + 0.5 * (after - before) };
         let found = along(time)?;
+        if found.abs() < near {
+            return Some(time);
+        }
         if found > 0.0 {
             (before, ahead, behind) = (time, found, 0.5 * behind);
         } else {

@@ -5,9 +5,9 @@
 use dynamics::Toss;
 use exact::certify;
 use rayon::prelude::*;
-use toss::{Outcome, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight};
+use toss::{Outcome, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight};
 
-use super::exact::{attitude_of_body, cos_tilt_of_body, edge_near};
+use super::exact::{at_an_edge, attitude_of_body, cos_tilt_of_body};
 use super::landings::{part_of_allowed, part_of_estimate};
 use super::proofs::share;
 use crate::measure::adversary::{self, Answers};
@@ -188,19 +188,12 @@ fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// A toss of each family within 3 ulp of a time at which its outcome changes.
 pub(crate) fn edges(context: &Context) -> anyhow::Result<Vec<Vec<Toss>>> {
     let solver = taylor(f64::EPSILON)?;
-    let edges = |tosses: Vec<Toss>| tosses.par_iter().filter_map(|toss| edge_of_body(&solver, toss)).collect();
-    Ok(hard_tosses(context.effort).into_iter().map(edges).collect())
-}
-
-/// The same toss with a time within 3 ulp of one at which the outcome changes: found by an integration in f64, and moved
-/// to the edge by the reference.
-fn edge_of_body(solver: &QuaternionSolver, toss: &Toss) -> Option<Toss> {
-    let until = |time: f64| {
-        let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(time)).ok()?;
-        Some(Toss { launch, ..*toss })
+    let edge = |toss: &Toss| {
+        at_an_edge(toss, |time| {
+            let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(time)).ok()?;
+            Some(solver.tilt(&Toss { launch, ..*toss }).ok()?.cos_tilt)
+        })
     };
-    let edge = edge_near(toss, |time| solver.tilt(&until(time)?).ok().map(|tilt| tilt.cos_tilt))?;
-    let edge = edge + Reference::of(&until(edge)?).ok()?.time_to_an_edge();
-    let ulps = (edge.to_bits() % 7) as i64 - 3;
-    (edge > 0.0).then(|| until(f64::from_bits(edge.to_bits().wrapping_add_signed(ulps)))).flatten()
+    let edges = |tosses: Vec<Toss>| tosses.par_iter().filter_map(edge).collect();
+    Ok(hard_tosses(context.effort).into_iter().map(edges).collect())
 }

@@ -55,7 +55,7 @@ fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
                 unexpected.push(format!("{}: {found}, where {expected} is expected", hazard.id));
             }
         }
-        let cases = HAZARDS.iter().map(|hazard| hazard.distances.len() as u64).sum();
+        let cases = HAZARDS.iter().map(|hazard| atlas.series(hazard.id, subject).count() as u64).sum();
         let input =
             if unexpected.is_empty() { "as expected at every hazard".to_owned() } else { unexpected.join("; ") };
         let found = Measurement::figure(subject, unexpected.len() as f64, cases, input);

@@ -8,7 +8,7 @@ use dynamics::{Phases, Toss};
 use rayon::prelude::*;
 use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
 
-use super::exact::at_an_edge;
+use super::exact::moved_to_an_edge;
 use crate::measure::check::Fold::{Count, Largest, Median};
 use crate::measure::check::Measure::{Both, Own, Tosses};
 use crate::measure::check::{Check, Fold, Set};
@@ -141,7 +141,7 @@ fn outcomes() -> Vec<Set> {
     let of_family = |family: &'static Family| {
         let tosses = move |context: &Context| {
             let tosses = launches(family, tries(context.effort) / 20, FLOWN).into_iter();
-            Ok(tosses.flat_map(|toss| [Some(toss), at_an_edge(&toss)]).flatten().collect())
+            Ok(tosses.flat_map(|toss| [Some(toss), moved_to_an_edge(&toss)]).flatten().collect())
         };
         Set::new(format!("bodies: {}", family.name), tosses, of_body)
     };
