@@ -28,7 +28,7 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 /// accuracy or work is worse than the baseline, though within limits; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct RunArgs {
-    /// Take fewer cases: within a minute on two cores, once built
+    /// Take fewer cases: half a minute on two cores, once built
     #[arg(long, conflicts_with = "deep")]
     quick: bool,
     /// Take ten times as many cases
@@ -43,6 +43,10 @@ pub(super) struct RunArgs {
     /// What goes to standard output; text without it
     #[arg(long, value_enum, conflicts_with = "verbose")]
     format: Option<Format>,
+    /// Keep what each check measures in the folder of --out, and go on with what an interrupted run of the same program kept
+    /// there
+    #[arg(long, conflicts_with_all = ["only", "command"])]
+    resume: bool,
     /// Print one line a row instead of one a check
     #[arg(long)]
     verbose: bool,
@@ -68,7 +72,7 @@ struct RowName(&'static Check, String);
 
 /// What is done instead of running the checks.
 #[derive(Debug, Args)]
-#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor", "worse_above"])]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "resume", "verbose", "time_factor", "worse_above"])]
 struct Instead {
     /// List the checks and what they claim
     #[arg(long, conflicts_with = "command")]
@@ -134,6 +138,7 @@ impl RunArgs {
             return files::print(&text).map(|()| u8::from(!passes));
         }
         let suite = self.asked_for(suite);
+        let suite = if self.resume { suite.keeping_in(out) } else { suite };
         let mut report = measure(&suite)?;
         // The reports know the baseline that the run has written, and are written even if it could not be.
         let is_accepted = self.bless && report.verdict() != Verdict::Fail;

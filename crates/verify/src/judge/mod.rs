@@ -8,9 +8,11 @@
 //! | reads tables of limits, and proposes some for rows that have none | [`limits`] |
 //! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
 //! | compares the time of each check with its limit | [`time`] |
+//! | keeps what was measured of a run that may be interrupted | [`kept`] |
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
+pub mod kept;
 pub mod limits;
 pub mod record;
 pub mod row;

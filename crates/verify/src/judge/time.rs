@@ -5,7 +5,7 @@
 //! to it, and elsewhere by the clock. Its limit is ten times what it takes usually, so that slower machines pass; for
 //! emulators and very slow solvers the limits can be multiplied.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::row::{Row, Status};
 use crate::measure::effort::Effort;
@@ -37,7 +37,7 @@ const USUAL_S: [(&str, f64); 8] = [
 ];
 
 /// The time that a check took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// The id of the check.
     pub check: String,

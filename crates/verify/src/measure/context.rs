@@ -103,6 +103,13 @@ impl Serialize for Context {
 }
 
 impl Context {
+    /// How many of the records that a report shows were made so far.
+    pub(crate) fn records(&self) -> usize {
+        usize::from(self.atlas.found().is_some())
+            + usize::from(self.sweep.found().is_some())
+            + usize::from(self.convergence.found().is_some())
+    }
+
     /// A context for the solvers of `registry`, and the data inside this crate.
     ///
     /// # Errors

@@ -9,9 +9,9 @@ use serde::Serialize;
 pub enum Effort {
     /// A fifth of the launches of `--quick`, for tests that every check does its work. It has no baseline.
     Sample,
-    /// `--quick`: takes a minute on two cores.
+    /// `--quick`: takes half a minute on two cores.
     Quick,
-    /// The default: takes three minutes on two cores.
+    /// The default: takes two and a half minutes on two cores.
     Standard,
     /// `--deep`: about ten times as many cases as the default, with no limit on time.
     Deep,

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use dynamics::Toss;
+use serde::{Deserialize, Serialize};
 
 use super::case;
 use super::subject::Subject;
 use crate::shown::shown;
 
 /// What repeats the toss of a worst case.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Replay {
     /// The toss as text, which the option `--replay` of a suite takes.
     pub input: String,

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 
 use dynamics::Toss;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use toss::SolveError;
 
 use super::case;
@@ -14,7 +14,7 @@ use super::subject::Subject;
 
 /// What a row judges. A row about a solver stands or falls with the entry of the registry; a row about the library does
 /// not, even if an entry has the same name as the library's own part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Judges {
     /// A solver of the registry.
@@ -148,7 +148,7 @@ fn largest(sizes: &[(f64, Option<String>)]) -> Option<usize> {
 }
 
 /// The result of one subject under one check.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// The subject's name.
     pub subject: String,
@@ -169,7 +169,7 @@ pub struct Measurement {
 }
 
 /// The worst case of a measurement.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Worst {
     /// The case's toss as text, or what was measured in words.
     pub input: String,
@@ -180,7 +180,7 @@ pub struct Worst {
 }
 
 /// What a solver's own error estimate allows for a measurement.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Claim {
     /// The measurement is not of a solver, so there is no estimate.
     NoSolver,

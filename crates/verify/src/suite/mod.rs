@@ -25,6 +25,7 @@ use toss::Registry;
 use crate::Row;
 use crate::files;
 use crate::judge::baseline::{self, Baseline, ERROR_RATIO};
+use crate::judge::kept::Kept;
 use crate::judge::limits::Limits;
 use crate::judge::time::Timing;
 use crate::judge::{Judge, LeftOut, record, require_distinct, unused_limits};
@@ -55,6 +56,7 @@ pub struct Suite {
     of_the_library: bool,
     time_factor: f64,
     error_ratio: f64,
+    keeps_in: Option<PathBuf>,
     program: Option<Running>,
 }
 
@@ -83,6 +85,7 @@ impl Suite {
             of_the_library: false,
             time_factor: 1.0,
             error_ratio: ERROR_RATIO,
+            keeps_in: None,
             program: None,
         }
     }
@@ -146,6 +149,13 @@ impl Suite {
         Self { error_ratio: ratio, ..self }
     }
 
+    /// The same suite, which keeps what each check has measured inside `folder`, and goes on with what an interrupted run of
+    /// the same program has kept there.
+    #[must_use]
+    pub fn keeping_in(self, folder: impl Into<PathBuf>) -> Self {
+        Self { keeps_in: Some(folder.into()), ..self }
+    }
+
     /// The solvers.
     pub fn registry(&self) -> &Registry {
         &self.registry
@@ -207,11 +217,10 @@ impl Suite {
         if !self.of_the_library && self.only.is_none() {
             rows.retain(|row| row.judges != Some(Judges::Library));
         }
+        let ended = |check: &&&Check| timings.iter().any(|timing| timing.check == check.id);
         let without_rows = |check: &&&Check| !rows.iter().any(|row| row.check == check.id);
         let why = "as the registry has no solver, or no pair of solvers, that they measure";
-        left_out.extend(
-            checks.iter().take(timings.len()).filter(without_rows).map(|check| LeftOut { check: check.id, why }),
-        );
+        left_out.extend(checks.iter().filter(ended).filter(without_rows).map(|check| LeftOut { check: check.id, why }));
         rows.extend(unused);
         ensure!(!rows.is_empty(), "no check measured anything");
         require_distinct(&rows)?;
@@ -246,17 +255,38 @@ impl Suite {
         show: &dyn Fn(Progress<'_>),
     ) -> anyhow::Result<(Vec<Row>, Vec<Timing>)> {
         let judge = Judge { limits, commands: &self.commands, effort: context.effort };
-        let (mut rows, mut timings) = (Vec::new(), Vec::new());
+        let kept = self.keeps_in.as_ref().map(|folder| Kept::new(folder, self.effort)).transpose()?;
+        let mut ended = Vec::new();
         let start = |check: &Check| show(Progress::Begins(check, checks.len()));
-        let end = |check: &Check, timing: Timing, end: End| {
-            let judged = end.rows(check, &timing, judge);
-            show(Progress::Ended(&judged, &timing));
-            rows.extend(judged);
-            timings.push(timing);
-            Ok(())
+        let mut end = |check: &Check, timing: Timing, end: End| {
+            let rows = end.rows(check, &timing, judge);
+            show(Progress::Ended(&rows, &timing));
+            ended.push((rows, timing));
         };
-        watch::run(checks, context, self.time_factor, start, end)?;
-        Ok((rows, timings))
+        let mut to_run = Vec::new();
+        for check in checks {
+            match kept.as_ref().map(|kept| kept.of(check.id)).transpose()?.flatten() {
+                Some((timing, measured)) => {
+                    start(check);
+                    end(check, timing, End::Measured(measured));
+                }
+                None => to_run.push(*check),
+            }
+        }
+        let mut records = context.records();
+        watch::run(&to_run, context, self.time_factor, start, |check, timing, found| {
+            // What the reports show beside rows is not kept: its check makes it again.
+            let makes_records = std::mem::replace(&mut records, context.records()) != records;
+            if let (Some(kept), End::Measured(measured), false) = (&kept, &found, makes_records) {
+                kept.keep(check.id, &timing, measured)?;
+            }
+            end(check, timing, found);
+            Ok(())
+        })?;
+        let place = |timing: &Timing| checks.iter().position(|check| check.id == timing.check);
+        ended.sort_by_key(|(_, timing)| place(timing));
+        let (rows, timings): (Vec<_>, Vec<_>) = ended.into_iter().unzip();
+        Ok((rows.concat(), timings))
     }
 
     /// Takes what is better or new than the baseline into it, and after a run of standard effort writes a dated record.

@@ -118,3 +118,24 @@ fn the_program_of_another_crate_keeps_its_files_in_its_own_folder_and_knows_its_
     assert!(answers.contains("two-turns") && answers.contains("right"), "{answers}");
     assert!(!answers.contains("gamma"), "the solvers are those of the suite: {answers}");
 }
+
+#[test]
+fn an_interrupted_run_goes_on_with_what_the_same_program_has_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("measured/quick/reference-cos-tilt.toml");
+    let run = || of_one_solver().only("reference-cos-tilt").folder(folder.path()).keeping_in(folder.path()).run();
+    let measured = run().unwrap().rows[0].clone();
+    // A number that no run finds shows whether it was read or measured.
+    let kept = std::fs::read_to_string(&file).unwrap();
+    let found = format!("cases = {}", measured.cases);
+    assert_eq!(kept.matches(&found).count(), 1, "{kept}");
+    std::fs::write(&file, kept.replace(&found, "cases = 12345")).unwrap();
+    assert_eq!(run().unwrap().rows, [Row { cases: 12345, ..measured.clone() }]);
+    // Of another program nothing is taken.
+    let program = kept.lines().next().unwrap();
+    std::fs::write(&file, kept.replace(&found, "cases = 12345").replace(program, "program = \"another\"")).unwrap();
+    assert_eq!(run().unwrap().rows, [measured]);
+    std::fs::write(&file, "no = 1").unwrap();
+    let error = format!("{:#}", run().err().expect("a file that is none"));
+    assert!(error.contains("reference-cos-tilt.toml: remove it, to measure reference-cos-tilt again"), "{error}");
+}

@@ -44,7 +44,8 @@ impl Atlas {
     pub fn new(registry: &[SolverEntry], effort: Effort) -> anyhow::Result<Self> {
         let contestants = contestants_at(registry, None)?;
         let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
-        let places = places.filter(|(hazard, distance)| effort.of([!SLOW.contains(&(hazard.id, *distance)), true, true]));
+        let places =
+            places.filter(|(hazard, distance)| effort.of([!SLOW.contains(&(hazard.id, *distance)), true, true]));
         let places: Vec<Place> =
             places.map(|(hazard, distance)| Place::new(hazard, distance)).collect::<Result<_, _>>()?;
         let flights: Vec<(&Place, &Subject)> =

@@ -291,8 +291,6 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(measurements)
 }
 
-const REPLICATES: u64 = 10_000;
-
 /// The number of intervals over the box of four coordinates, and of those that contain its probability.
 pub(super) fn in_the_box_of_four(
     context: &Context,
@@ -303,6 +301,7 @@ pub(super) fn in_the_box_of_four(
         let found = Sampler::exact().estimate(&space, plan(1024, seed))?;
         anyhow::Ok(u64::from(found.interval.is_some_and(|interval| interval.contains(probability))))
     };
-    let covered = (1..=REPLICATES).into_par_iter().map(is_covered).sum::<anyhow::Result<u64>>()?;
-    Ok([REPLICATES, covered])
+    let replicates = context.effort.of([2000, 10_000, 10_000]);
+    let covered = (1..=replicates).into_par_iter().map(is_covered).sum::<anyhow::Result<u64>>()?;
+    Ok([replicates, covered])
 }

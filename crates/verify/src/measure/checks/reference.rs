@@ -147,7 +147,8 @@ fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyho
 
 fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let measure = |subject: &Subject| {
-        let (count, last): (u32, f64) = if subject.stepping.is_none() { (100_000, 10_000.0) } else { (60, 30.0) };
+        let flown = context.effort.of([20, 60, 60]);
+        let (count, last): (u32, f64) = if subject.stepping.is_none() { (100_000, 10_000.0) } else { (flown, 30.0) };
         let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
         Ok(misses(subject, &thrown(Coin::DISC, [1.0, 1.0, 2.5], times)?, Outcome::Heads))
     };
