@@ -27,9 +27,15 @@ pub(crate) fn tosses(number: u64) -> Result<Vec<Toss>, InputError> {
     simple.into_iter().map(Ok).chain(drawn).map(|toss| toss.map(Toss::from)).collect()
 }
 
-pub(crate) fn subject(entry: &SolverEntry, scheme: Option<Scheme>, toss: &Toss) -> Result<Subject, InputError> {
+/// The solver of `entry` with a scheme, at a tolerance if the scheme takes one.
+pub(crate) fn subject(
+    entry: &SolverEntry,
+    scheme: Option<Scheme>,
+    tolerance: f64,
+    toss: &Toss,
+) -> Result<Subject, InputError> {
     let step = (STEP / toss.launch.turn_rate()).min(f64::MAX);
-    let stepping = |scheme: Scheme| by_kind(scheme, TOLERANCE, step);
+    let stepping = |scheme: Scheme| by_kind(scheme, tolerance, step);
     Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
 }
 

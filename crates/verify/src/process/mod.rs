@@ -18,8 +18,7 @@ use dynamics::{Fault, Flight, ForeignError, Phases};
 use rayon::prelude::*;
 use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
-use crate::measure::any_launch::TOLERANCE;
-use crate::measure::diagnosis::{self, Asked, Diagnosis, NORMS};
+use crate::measure::diagnosis::{self, Asked, Diagnosis, NORMS, TOLERANCES, cos_tilt_as_answered};
 use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use pool::{Exchange, Pool};
@@ -180,8 +179,8 @@ impl Running {
     /// What the program most likely does wrong, by its answers to [launches of every kind](diagnosis::launches).
     pub(crate) fn diagnosis(&self, subject: &str) -> Option<Diagnosis> {
         let launches = diagnosis::launches().ok()?;
-        let asked = launches.par_iter().filter_map(|toss| self.asked(toss, TOLERANCE)).collect();
-        diagnosis::diagnosis(subject, asked)
+        let asked = |by: f64| launches.par_iter().filter_map(|toss| self.asked(toss, by)).collect();
+        TOLERANCES.iter().find_map(|by| diagnosis::diagnosis(subject, asked(*by)))
     }
 
     /// What the program answers to `toss` at a tolerance, with its question as it got it, and what it is allowed.
@@ -197,6 +196,7 @@ impl Running {
         Some(Asked {
             toss: *toss,
             question: format!("{HEADER}\n{}", exchange.question),
+            unit: question.unit(),
             line: exchange.line,
             answer: exchange.reply.and_then(|landed| match landed.quaternion {
                 finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
@@ -290,11 +290,13 @@ impl Solver for ByProgram {
         if !NORMS.contains(&norm) {
             return Err(self.misbehaved("the norm of the quaternion", norm));
         }
-        let attitude = Attitude::from_components(question.in_body(landed.quaternion));
+        let quaternion = question.in_body(landed.quaternion);
+        let attitude = Attitude::from_components(quaternion);
         let attitude = attitude.map_err(|_| self.misbehaved("the norm", norm))?;
         let state = question.state(toss, attitude, landed.rate);
         let work = Work { rhs_calls: landed.calls, ..Work::default() };
         let error = self.error(toss, &question, &landed)?;
-        Ok(Landing::new(state, work).with_norm_error((norm - 1.0).abs()).with_error(error))
+        let landing = Landing::new(state, work).with_cos_tilt(cos_tilt_as_answered(quaternion));
+        Ok(landing.with_norm_error((norm - 1.0).abs()).with_error(error))
     }
 }

@@ -90,6 +90,11 @@ impl Question {
         numbers.map(|number| format!("{number:?}")).join(",")
     }
 
+    /// The unit of the rates (rad/s).
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
+    }
+
     /// Whether the attitude and the moments are those of the question only to rounding.
     pub(super) fn is_rounded(&self) -> bool {
         self.axes.is_some()

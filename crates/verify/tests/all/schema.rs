@@ -180,6 +180,7 @@ fn report() -> Value {
     let asked = diagnosis::launches().expect("launches").into_iter().take(3).map(|toss| Asked {
         toss,
         question: String::new(),
+        unit: 1.0,
         line: None,
         answer: Err("is silent".to_owned()),
         allowed: Allowance { cos_tilt: 1e-9, attitude: 1e-8 },

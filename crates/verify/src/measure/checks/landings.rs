@@ -238,7 +238,7 @@ pub(super) fn part_of_estimate(exact: &Reference, landing: &Landing) -> Option<f
 fn any_launch(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let tosses = any_launch::tosses(context.effort.of([1000, 2000, 20_000]))?;
     let row = |(entry, scheme): (&SolverEntry, Option<Scheme>)| {
-        let by = |toss| Ok((toss, any_launch::subject(entry, scheme, toss)?));
+        let by = |toss| Ok((toss, any_launch::subject(entry, scheme, any_launch::TOLERANCE, toss)?));
         let flights: Vec<(&Toss, Subject)> = tosses.iter().map(by).collect::<anyhow::Result<_>>()?;
         let trial = |(toss, by): &'_ (&Toss, Subject)| {
             let (landing, exact) = (by.solver.land(toss), context.exact.of(toss)?);

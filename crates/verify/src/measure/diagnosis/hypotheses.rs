@@ -75,7 +75,7 @@ impl Hypothesis {
 }
 
 /// All hypotheses. Of two that explain the same answers, the first is told.
-pub(super) const HYPOTHESES: [Hypothesis; 34] = [
+pub(super) const HYPOTHESES: [Hypothesis; 36] = [
     Hypothesis::of_answer("its quaternion is read as x,y,z,w", |_, answer| scalar_first(answer)),
     Hypothesis::of_answer("its quaternion is conjugated, so that it leads from BF to LF", |_, answer| {
         conjugated(answer)
@@ -83,7 +83,6 @@ pub(super) const HYPOTHESES: [Hypothesis; 34] = [
     Hypothesis::of_answer("its quaternion is read as x,y,z,w and conjugated", |_, answer| {
         conjugated(scalar_first(answer))
     }),
-    Hypothesis::of_answer("its quaternion is divided by its norm", |_, answer| answer),
     Hypothesis::of_question("the quaternion at launch is given to it as x,y,z,w", as_scalar_last),
     Hypothesis::of_question("quaternions are given to it and read as x,y,z,w", as_scalar_last)
         .read_as(|_, answer| scalar_first(answer)),
@@ -140,6 +139,11 @@ pub(super) const HYPOTHESES: [Hypothesis; 34] = [
     }),
     Hypothesis::of_question("the rate is given to it in turns per unit of time", |numbers| numbers.with_rate(TAU)),
     Hypothesis::of_question("the rate is divided by 2π, as it does", |numbers| numbers.with_rate(1.0 / TAU)),
+    Hypothesis::of_question("the rate is given to it in turns per 60 units of time", |numbers| {
+        numbers.with_rate(TAU / 60.0)
+    }),
+    Hypothesis::of_question("the time is given to it in thousandths of its unit", |numbers| numbers.with_rate(1e-3)),
+    Hypothesis::of_question("the time is divided by 1000, by which it multiplies", |numbers| numbers.with_rate(1e3)),
     Hypothesis::of_question("all its angles are halved: it turns by twice the angle", |numbers| numbers.with_rate(2.0)),
     Hypothesis::of_question("all its angles are doubled: it turns by half the angle", |numbers| numbers.with_rate(0.5)),
     Hypothesis::of_question("its Q' = Q ω is halved to Q' = ½ Q ω", |numbers| with_kinematics(numbers, 2.0)),

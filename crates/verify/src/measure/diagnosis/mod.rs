@@ -23,6 +23,9 @@ use crate::shown::shown;
 /// The number of launches that a diagnosis asks for.
 const LAUNCHES: u64 = 1000;
 
+/// The tolerances at which they are asked for. Whoever is right at the first, and fails, is asked at the second.
+pub(crate) const TOLERANCES: [f64; 2] = [any_launch::TOLERANCE, 1e-12];
+
 /// The part of the answers that a cause has to explain.
 const EXPLAINED: f64 = 0.95;
 
@@ -44,6 +47,9 @@ const NEAR_TOLERANCE: f64 = 10.0;
 /// The least and the largest norm of a quaternion that is taken for one of norm 1 with the error of an integration.
 pub(crate) const NORMS: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
+/// How far the square of a norm may be from 1 by the rounding of a few products of unit quaternions.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
+
 /// What stands before the reason why a program was given up.
 pub(crate) const GIVEN_UP: &str = "is no longer asked: it ";
 
@@ -54,6 +60,8 @@ pub struct Asked {
     pub toss: Toss,
     /// The question as the solver got it.
     pub question: String,
+    /// The unit of the rates in the question (rad/s).
+    pub unit: f64,
     /// The answer as it was written, if it wrote any.
     pub line: Option<String>,
     /// The quaternion from BF to LF that was answered, or why there is none.
@@ -95,8 +103,8 @@ pub struct Example {
 }
 
 impl Asked {
-    fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, toss: &Toss) -> Option<Self> {
-        let by = any_launch::subject(entry, scheme, toss).ok()?;
+    fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, tolerance: f64, toss: &Toss) -> Option<Self> {
+        let by = any_launch::subject(entry, scheme, tolerance, toss).ok()?;
         let landing = by.solver.land(toss);
         let (answer, estimate) = match &landing {
             Ok(landing) => (Ok(landing.state.attitude.components()), landing.error),
@@ -106,27 +114,41 @@ impl Asked {
         let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
         let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
         let question = case::text(toss) + &case::settings(&by);
-        Some(Self { toss: *toss, question, line, answer, allowed, exact: Reference::of(toss).ok()? })
+        Some(Self { toss: *toss, question, unit: 1.0, line, answer, allowed, exact: Reference::of(toss).ok()? })
     }
 
-    /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad);
-    /// `None` without a quaternion of norm 1.
+    /// The numbers of the question, in its unit.
+    fn numbers(&self) -> Option<Numbers> {
+        let numbers = Numbers::of(&self.toss)?;
+        let (rate, time) = (numbers.rate.map(|part| part / self.unit), numbers.time * self.unit);
+        Some(Numbers { rate, time, ..numbers })
+    }
+
+    /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
+    /// the answer divided by its norm.
     fn errors(&self) -> Option<[f64; 2]> {
-        let answer = self.answer.as_ref().ok()?;
-        let norm = nalgebra::Vector4::from(*answer).norm();
-        let attitude = Attitude::from_components(*answer).ok().filter(|_| NORMS.contains(&norm))?;
+        let attitude = Attitude::from_components(*self.answer.as_ref().ok()?).ok()?;
         let angle = self.exact.attitude_error(&attitude);
         let cos_tilt = self.exact.cos_tilt_error(attitude.cos_tilt());
         Some([(cos_tilt / self.allowed.cos_tilt).max(angle / self.allowed.attitude), angle])
     }
 
-    fn is_right(&self) -> bool {
+    /// Whether it is right once it is divided by its norm.
+    fn is_right_in_direction(&self) -> bool {
         self.errors().is_some_and(|[part, _]| part <= 1.0)
+    }
+
+    fn is_right(&self) -> bool {
+        let has_norm = |answer: &[f64; 4]| {
+            let off = self.exact.cos_tilt_error(cos_tilt_as_answered(*answer));
+            NORMS.contains(&nalgebra::Vector4::from(*answer).norm()) && off <= self.allowed.cos_tilt
+        };
+        self.is_right_in_direction() && self.answer.as_ref().is_ok_and(has_norm)
     }
 
     /// Whether `hypothesis` explains the answer; `None` if it says nothing of this question.
     fn is_explained(&self, hypothesis: &Hypothesis) -> Option<bool> {
-        let asked = Numbers::of(&self.toss)?;
+        let asked = self.numbers()?;
         let Numbers { k, rate, time, attitude, .. } = (hypothesis.ask)(asked);
         if ![k, rate[0], rate[1], rate[2], time].iter().all(|number| number.is_finite()) {
             return None;
@@ -167,9 +189,10 @@ pub fn launches() -> anyhow::Result<Vec<Toss>> {
 pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> anyhow::Result<Vec<Diagnosis>> {
     let launches = launches()?;
     let of_scheme = |(entry, scheme): (&SolverEntry, Option<toss::Scheme>)| {
-        let name = any_launch::subject(entry, scheme, &launches[0]).ok()?.name;
-        let asked = || launches.par_iter().filter_map(|toss| Asked::of(entry, scheme, toss)).collect();
-        if fails(&name) { diagnosis(&name, asked()) } else { None }
+        let name = any_launch::subject(entry, scheme, TOLERANCES[0], &launches[0]).ok()?.name;
+        let asked = |by: f64| launches.par_iter().filter_map(|toss| Asked::of(entry, scheme, by, toss)).collect();
+        let of_tolerance = |by: &f64| diagnosis(&name, asked(*by));
+        if fails(&name) { TOLERANCES.iter().find_map(of_tolerance) } else { None }
     };
     Ok(by_scheme(entry).filter_map(of_scheme).collect())
 }
@@ -188,6 +211,7 @@ pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
     let cause = unanswered(silent.len() * 2 > asked.len())
         .or_else(|| if is_rare { split(&asked) } else { None })
         .or_else(|| unanswered(silent.len() == wrong.len()))
+        .or_else(|| without_norm(&answered, asked.len()))
         .or_else(|| rough(&answered, asked.len()))
         .or_else(|| mistake(&answered, asked.len()))
         .or_else(|| split(&asked));
@@ -248,15 +272,26 @@ fn mistake(answered: &[&Asked], all: usize) -> Option<Cause> {
     })
 }
 
+/// Quaternions that are wrong by their norm alone.
+fn without_norm(answered: &[&Asked], all: usize) -> Option<Cause> {
+    let right = answered.iter().filter(|one| one.is_right_in_direction()).count();
+    let wrong = answered.iter().filter(|one| !one.is_right()).count();
+    let is_so = ((answered.len() - right) as f64) <= (1.0 - EXPLAINED) * wrong as f64;
+    is_so
+        .then(|| (format!("right if its quaternion is divided by its norm: {right} of {all}"), right == answered.len()))
+}
+
 /// An error that is merely larger than allowed, as of an integrator with too loose a tolerance or too long a step: in flights
 /// of moderate phase φ it is in proportion to 1 + φ, and in longer ones it grows at most by φ².
 fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
     let growth = |one: &Asked| Some((1.0 + Phases::new(&one.toss).ok()?.largest, one.errors()?));
     let errors: Vec<(f64, [f64; 2])> = answered.iter().filter_map(|one| growth(one)).collect();
     let moderate = errors.iter().filter(|(growth, _)| MODERATE.contains(growth));
-    let mut of_moderate: Vec<f64> = moderate.map(|(growth, [_, angle])| angle / growth).collect();
-    of_moderate.sort_by(f64::total_cmp);
-    let tolerance = *of_moderate.get((of_moderate.len() as f64 * EXPLAINED) as usize)?;
+    let mut of_moderate: Vec<(f64, f64)> = moderate.map(|(growth, [part, angle])| (angle / growth, *part)).collect();
+    of_moderate.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Whoever keeps the tolerance in these flights does something else wrong.
+    let (tolerance, _) =
+        *of_moderate.get((of_moderate.len() as f64 * EXPLAINED) as usize).filter(|(_, part)| *part > 1.0)?;
     let is_explained = |(growth, [part, angle]): &(f64, [f64; 2])| {
         *part <= 1.0 || *angle <= NEAR_TOLERANCE * tolerance * growth.powi(2)
     };
@@ -266,6 +301,13 @@ fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
         let words = format!("right up to a tolerance of about {tolerance:.0e}, looser than asked or claimed");
         (format!("{words}: {explained} of {all}"), explained == all)
     })
+}
+
+/// cos θ = w² + z² - x² - y² of a quaternion as it was answered. That its norm is off by rounding is not its fault.
+pub(crate) fn cos_tilt_as_answered([w, x, y, z]: [f64; 4]) -> f64 {
+    let square = w * w + x * x + y * y + z * z;
+    let cos_tilt = w * w + z * z - x * x - y * y;
+    if (square - 1.0).abs() <= ROUNDED { cos_tilt / square } else { cos_tilt }
 }
 
 /// A number of a question by which right and wrong answers may be told apart.
@@ -303,7 +345,7 @@ fn split(asked: &[Asked]) -> Option<Cause> {
     let mut best: Option<(f64, String)> = None;
     for Feature(name, number) in &FEATURES {
         for sign in [1.0, -1.0] {
-            let of = |one: &Asked| Some((sign * number(&one.toss, &Numbers::of(&one.toss)?), one.is_right()));
+            let of = |one: &Asked| Some((sign * number(&one.toss, &one.numbers()?), one.is_right()));
             let mut sorted: Vec<(f64, bool)> = asked.iter().filter_map(of).collect();
             sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
             let Some(first) = sorted.iter().find(|(_, right)| !right).map(|(value, _)| *value) else { continue };

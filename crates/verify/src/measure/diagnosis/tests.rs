@@ -91,6 +91,7 @@ fn told_within(error: f64, answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosi
         Some(Asked {
             toss: *toss,
             question: case::text(toss),
+            unit: 1.0,
             line: None,
             answer: Some(answer(&row)).filter(|answer| !answer[0].is_nan()).ok_or_else(|| "declined".to_owned()),
             allowed: Allowance::by_estimate(error * (1.0 + phase)),
@@ -103,7 +104,7 @@ fn told_within(error: f64, answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosi
 #[test]
 fn each_mistake_is_found_and_named() {
     type Mistake = (&'static str, fn(&Row) -> [f64; 4]);
-    let mistakes: [Mistake; 25] = [
+    let mistakes: [Mistake; 28] = [
         ("its quaternion is conjugated", |row| components(right(row).conjugate())),
         ("its quaternion is read as x,y,z,w: 1000 of 1000", |row| {
             let [w, x, y, z] = components(right(row));
@@ -139,6 +140,11 @@ fn each_mistake_is_found_and_named() {
         ("i1 is 1", |row| components(right(&Row { i1: 1.0, ..*row }))),
         ("it ignores the moments", |row| components(row.launched * turn(row.rate * row.time))),
         ("its quaternion is divided by its norm", |row| components(right(row) * 3.0)),
+        ("its quaternion is divided by its norm: 1000 of 1000", |row| {
+            components(right(row) * (1.0 + 1e-5 * momentum(row).norm().max(spin(row).norm())))
+        }),
+        ("in turns per 60 units of time", |row| components(right(&Row { rate: row.rate * PI / 30.0, ..*row }))),
+        ("the time is given to it in thousandths", |row| components(right(&Row { time: row.time / 1000.0, ..*row }))),
         ("right up to a tolerance of about 1e-6, looser than asked or claimed: ", |row| {
             components(right(&Row { time: row.time * (1.0 + 1e-6), ..*row }))
         }),
@@ -208,6 +214,7 @@ fn a_solver_without_answers_is_told_why() {
     let asked = |(index, toss): (usize, &Toss)| Asked {
         toss: *toss,
         question: String::new(),
+        unit: 1.0,
         line: None,
         answer: Err(if index == 0 { "ended".to_owned() } else { "is no longer asked: it ended".to_owned() }),
         allowed: Allowance::by_estimate(1e-9),
