@@ -6,6 +6,7 @@
 //! A quantity is a number in SI units, a text with a unit, or a value of a package that has units, which
 //! `unfair_toss.units` converts.
 
+use ::toss::Error;
 use dynamics::Unit;
 use dynamics::quantity::{Dimension, Given};
 use dynamics::thrown::{Field, Holds};
@@ -16,8 +17,9 @@ use pyo3::pyclass::PyClass;
 use pyo3::types::{
     PyBool, PyByteArray, PyBytes, PyComplex, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple,
 };
+use serde::de::DeserializeOwned;
 
-use crate::errors::refused;
+use crate::errors::{Failure, refused};
 
 /// What is said to be valid where a number is wanted.
 const A_NUMBER: &str = "a real number";
@@ -161,10 +163,13 @@ pub(crate) fn text(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyR
     value.extract().map_err(|_| refused_value(field, value, expected))
 }
 
-/// A text of JSON, without the mark of UTF-8 that some editors put before a text.
-pub(crate) fn json(value: &Bound<'_, PyAny>, expected: &str) -> PyResult<String> {
+/// What a text of JSON describes. It may begin with the mark of UTF-8 that some editors put before a text.
+pub(crate) fn from_json<T: DeserializeOwned>(value: &Bound<'_, PyAny>, expected: &str) -> PyResult<T> {
     let text = text("text", value, expected)?;
-    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let read = serde_json::from_str(text);
+    let wrong = |error: serde_json::Error| Error::in_json(text, (error.line(), error.column()), &error.to_string());
+    Ok(read.map_err(|error| Failure::from(wrong(error)).of("text"))?)
 }
 
 /// The object of one of our classes that an argument is.

@@ -161,8 +161,7 @@ impl Plan {
     ///     As ``to_json`` writes it.
     #[staticmethod]
     fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = serde_json::from_str::<::toss::sampling::Plan>(&given::json(text, "a plan as JSON")?);
-        Ok(read.map_err(|error| malformed("text", error, "a plan as JSON"))?.into())
+        Ok(given::from_json::<::toss::sampling::Plan>(text, "a plan as JSON")?.into())
     }
 
     fn __repr__(&self) -> String {
@@ -247,7 +246,7 @@ fn scrambles(value: &Bound<'_, PyAny>) -> PyResult<u64> {
 
 /// The seed that an argument is or draws.
 pub(crate) fn seed(value: &Bound<'_, PyAny>) -> PyResult<u64> {
-    count("seed", &value.py().import("unfair_toss.given")?.call_method1("seed", (value,))?)
+    count("seed", &value.py().import("unfair_toss.given")?.call_method1("drawn", (value,))?)
 }
 
 /// The accuracy that an argument is.

@@ -134,8 +134,7 @@ impl Space {
     ///     As ``to_json`` writes it.
     #[staticmethod]
     fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = serde_json::from_str(&given::json(text, "a space as JSON")?);
-        Ok(Self { space: read.map_err(|error| malformed("text", error, "a space as JSON"))? })
+        Ok(Self { space: given::from_json(text, "a space as JSON")? })
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -265,12 +265,11 @@ fn landed(
         }
         let one = |(index, drawn): (usize, &::toss::sampling::Drawn)| {
             stop.here();
-            let landed = backend.solver().tilt(&drawn.toss);
-            let landed = landed.and_then(|tilt| Ok((tilt.cos_tilt, backend.verdict(&drawn.toss, tilt)?)));
-            let (cos_tilt, verdict) = landed.map_err(|error| Failure::from(error).at(first + index as u64))?;
+            let landed = backend.landed(&drawn.toss);
+            let (tilted, verdict) = landed.map_err(|error| Failure::from(error).at(first + index as u64))?;
             let [x, y, z, speed, gravity, tilt] = drawn.values;
             let drop = drawn.toss.launch.time_of_flight().drop().unwrap_or(0.0);
-            Ok(([x, y, z, speed, gravity, drop, tilt, drawn.toss.launch.flight_time(), cos_tilt], verdict))
+            Ok(([x, y, z, speed, gravity, drop, tilt, drawn.toss.launch.flight_time(), tilted.cos_tilt], verdict))
         };
         let solved: Vec<Result<_, Failure>> =
             chunk.par_iter().enumerate().map(|(index, drawn)| one((index, drawn))).collect();

@@ -68,8 +68,7 @@ impl Tally {
     ///     As ``to_json`` writes it.
     #[staticmethod]
     fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = serde_json::from_str(&given::json(text, "a part of an estimate as JSON")?);
-        Ok(Self { tally: read.map_err(|error| malformed("text", error, "a part of an estimate as JSON"))? })
+        Ok(Self { tally: given::from_json(text, "a part of an estimate as JSON")? })
     }
 
     /// The fields of the estimate from a tally of all launches.

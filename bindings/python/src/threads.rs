@@ -5,7 +5,6 @@
 //! between them it asks. Other work is done by a thread beside it, while it asks from time to time. Such work owns what it
 //! works on, so that Ctrl-C leaves it to itself: it ends at the next of its blocks, and its result is dropped.
 
-use std::fmt::Display;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -76,28 +75,32 @@ pub(crate) fn require(threads: Option<u64>) -> PyResult<usize> {
 pub(crate) fn pool(threads: Option<u64>) -> PyResult<rayon::ThreadPool> {
     let number = require(threads)?;
     let build = rayon::ThreadPoolBuilder::new().num_threads(number).build();
-    let threads = if number == 0 { "a thread per core".to_owned() } else { format!("{number} threads") };
-    build.map_err(|error| cannot_start(&threads, format!("{error}; try threads=1")))
+    // As Python says of its own threads, because no argument is at fault.
+    build.map_err(|error| {
+        PyRuntimeError::new_err(match number {
+            0 => format!("cannot start a thread per core: {error}; try threads=1"),
+            1 => format!("cannot start a thread: {error}"),
+            _ => format!("cannot start {number} threads: {error}; try threads=1"),
+        })
+    })
 }
 
-/// The exception of threads that the system does not start: that of Python's own threads, as no argument is at fault.
-fn cannot_start(threads: &str, error: impl Display) -> PyErr {
-    PyRuntimeError::new_err(format!("cannot start {threads}: {error}"))
-}
-
-/// The result of `work`, which a thread of its own does; or the exception of a signal.
-pub(crate) fn aside<R: Send + 'static>(
-    py: Python<'_>,
-    work: impl FnOnce(&Stop) -> Result<R, Failure> + Send + 'static,
-) -> PyResult<R> {
+/// The result of `work`, which a thread of its own does; or the exception of a signal. Where no thread can start, it is done here,
+/// and signals wait for its end.
+pub(crate) fn aside<R: Send + 'static, W>(py: Python<'_>, work: W) -> PyResult<R>
+where
+    W: FnOnce(&Stop) -> Result<R, Failure> + Send + 'static,
+{
     let stop = Stop::default();
-    let (told, done) = mpsc::channel();
+    let ((told, done), (give, take)) = (mpsc::channel(), mpsc::channel::<W>());
     let of_work = stop.clone();
     let start = thread::Builder::new().spawn(move || {
         // Nobody may be there to take it.
-        drop(told.send(catch_unwind(AssertUnwindSafe(|| work(&of_work)))));
+        take.into_iter().for_each(|work| drop(told.send(catch_unwind(AssertUnwindSafe(|| work(&of_work))))));
     });
-    start.map_err(|error| cannot_start("a thread", error))?;
+    let Ok(_) = start else { return Ok(py.detach(|| work(&stop))?) };
+    drop(give.send(work));
+    drop(give);
     let answer = py.detach(move || listening(&stop, done))?;
     Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
 }

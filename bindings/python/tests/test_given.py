@@ -6,6 +6,7 @@ import fractions
 import inspect
 import math
 import random
+import re
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -374,3 +375,26 @@ def test_lists_of_numbers_of_mixed_types_are_columns():
     lists = [[random.random() for _ in range(7)] for _ in range(5)]
     assert (ut.cos_tilt(lists, 1, 1, 3) == ut.cos_tilt(np.array(lists), 1, 1, 3)).all()
     assert (ut.cos_tilt([np.array(row) for row in lists], 1, 1, 3) == ut.cos_tilt(np.array(lists), 1, 1, 3)).all()
+
+
+@pytest.mark.parametrize("read", [ut.Space.from_json, ut.Plan.from_json, ut.Tally.from_json])
+@pytest.mark.parametrize(("text", "line"), [("", 1), ("[[1]]", 1), ("null", 1), ("{", 1), ('{\n"coin": x}', 2)])
+def test_a_fault_in_json_has_a_place_and_is_in_words(read, text, line):
+    with pytest.raises(errors.TextError, match=rf"^line {line}, column \d+: ") as caught:
+        read(text)
+    assert not re.search("struct|Data|EOF| at line", str(caught.value)), caught.value
+
+
+@pytest.mark.parametrize("name", ["\x1b[31m\n", "a\u202eb", "a\0\r", "\x85\u2028", "\ufeff", "\x1b]0;title\x07"])
+def test_a_message_is_one_line_that_can_be_printed(name, tmp_path):
+    def folder():
+        part = tmp_path / name.replace("\0", "") / "part-1-of-1.json"
+        part.parent.mkdir()
+        part.write_text("x")
+        ut.probability(SPACE, PLAN, folder=part.parent, shards=1)
+
+    calls = [lambda: ut.Body.named(name), lambda: ut.Space(**(AXES | {"speed": name})), lambda: ut.Space.from_toml(f'"{name}"=1'), folder]
+    for call in calls:
+        with pytest.raises(errors.InputError) as caught:
+            call()
+        assert str(caught.value).isprintable(), caught.value

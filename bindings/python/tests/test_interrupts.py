@@ -138,3 +138,29 @@ found = ut.probability(space, plan)
 print(len(heard), found.points, ut.Toss((1, 1, 2.5), speed=3) is not None)
 """
     assert subprocess.check_output([sys.executable, "-c", code], text=True).split() == ["1", "200000000", "True"]
+
+
+ALONE = """
+import os, resource
+import unfair_toss as ut
+
+resource.setrlimit(resource.RLIMIT_NPROC, (1, 1))
+os.setgroups([])
+os.setuid(65534)
+toss, space = ut.Toss((1, 2, 3), speed=3, body="racket"), ut.Space.named("paper-fig4")
+print(ut.trace(toss, 3).t.size, ut.intervals(ut.Toss((1, 1, 2.5), speed=3)).probability, ut.cos_tilt(1.0, 2.0, 3.0, 3.0, threads=1))
+for threads in (1, 2):
+    try:
+        ut.probability(space, ut.Plan.random(10), threads=threads)
+    except RuntimeError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only the administrator can become a user without threads")
+def test_where_no_thread_can_start_calls_without_threads_need_none_and_others_say_so():
+    done = subprocess.run([sys.executable, "-c", ALONE], capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith("3 "), done.stderr
+    assert lines[1].startswith("cannot start a thread: ") and "try" not in lines[1], lines
+    assert lines[2].startswith("cannot start 2 threads: ") and lines[2].endswith("; try threads=1"), lines

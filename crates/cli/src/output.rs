@@ -185,15 +185,7 @@ pub(crate) fn read(option: &'static str, path: &Path) -> Result<String, Failure>
 
 /// What a text in JSON describes.
 pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
-    serde_json::from_str(text).map_err(|error| {
-        let (line, column, message) = (error.line(), error.column(), error.to_string());
-        let message = message.trim_end_matches(&format!(" at line {line} column {column}"));
-        let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-        // The column is of bytes, and may be that of the second one of a letter.
-        let at = (before + column.saturating_sub(1)).min(text.len());
-        let at = (0..=at).rev().find(|at| text.is_char_boundary(*at));
-        Error::in_text(text, at, in_words(message))
-    })
+    serde_json::from_str(text).map_err(|error| Error::in_json(text, (error.line(), error.column()), &error.to_string()))
 }
 
 /// What a text in TOML describes.

@@ -5,6 +5,7 @@ use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Once, OnceLock};
+use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use clap::{ArgMatches, Command};
@@ -91,8 +92,9 @@ impl Watch {
             require("seconds", seconds, "> 0", seconds > 0.0)?;
         }
         if long.is_some() {
-            // What runs in the background and ignores Ctrl-C goes on ignoring it.
-            LISTENING.call_once(|| _ = ctrlc::try_set_handler(interrupt));
+            // What runs in the background and ignores Ctrl-C goes on ignoring it. Where no thread can listen for Ctrl-C, it
+            // ends the program.
+            LISTENING.call_once(|| _ = starts_threads().then(|| ctrlc::try_set_handler(interrupt)));
             AT_WORK.store(true, Ordering::SeqCst);
         }
         let allowed = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
@@ -107,7 +109,9 @@ impl Watch {
             self.bar.set_style(style(number.is_some()));
             self.bar.set_message(things);
             number.into_iter().for_each(|number| self.bar.set_length(number));
-            self.bar.enable_steady_tick(Duration::from_millis(100));
+            if starts_threads() {
+                self.bar.enable_steady_tick(Duration::from_millis(100));
+            }
         }
     }
 
@@ -150,12 +154,16 @@ impl Watch {
         question(&sampler.on_progress(&progress).until(&stop))
     }
 
-    /// The result of a `job` that cannot be told to end, on a thread of its own, which is left alone when it is time to end.
+    /// The result of a `job` that cannot be told to end, on a thread of its own, which is left alone when it is time to end. Where
+    /// no thread can start, it is done here, to its end.
     ///
     /// # Errors
     /// [`Error::Ended`] then.
     pub(crate) fn aside<T: Send + 'static>(&self, job: impl FnOnce() -> T + Send + 'static) -> Result<T, Error> {
         const LOOK: Duration = Duration::from_millis(50);
+        if !starts_threads() {
+            return Ok(job());
+        }
         let (done, result) = channel();
         std::thread::spawn(move || _ = done.send(job()));
         loop {
@@ -172,6 +180,11 @@ impl Watch {
         AT_WORK.store(false, Ordering::SeqCst);
         self.bar.finish_and_clear();
     }
+}
+
+/// Whether the system starts a thread beside this one.
+fn starts_threads() -> bool {
+    Builder::new().spawn(|| ()).is_ok_and(|thread| thread.join().is_ok())
 }
 
 /// Ctrl-C asks the work to end, and ends the program if there is none, if it is pressed again, or if the work does not end.

@@ -76,6 +76,17 @@ impl Error {
         Self::Text { line, column: last.chars().count() + 1, message }
     }
 
+    /// What a reader of JSON says of `text`, with a place whose column is one of bytes. Its words are [those of people](crate::data::in_words).
+    #[cfg(feature = "serde")]
+    pub fn in_json(text: &str, (line, column): (usize, usize), message: &str) -> Self {
+        let message = message.trim_end_matches(&format!(" at line {line} column {column}"));
+        let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+        // It may be the column of the second byte of a letter.
+        let at = (before + column.saturating_sub(1)).min(text.len());
+        let at = (0..=at).rev().find(|at| text.is_char_boundary(*at));
+        Self::in_text(text, at, crate::data::in_words(message))
+    }
+
     /// A short name of the kind of error, for machine-readable output.
     pub fn kind(&self) -> &'static str {
         match self {

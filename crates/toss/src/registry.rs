@@ -139,6 +139,15 @@ impl Backend {
         }
     }
 
+    /// cos θ at landing with its error estimate, and the verdict.
+    ///
+    /// # Errors
+    /// As for [`Solver::tilt`] and [`Self::verdict`].
+    pub fn landed(&self, toss: &Toss) -> Result<(Tilt, Verdict), SolveError> {
+        let tilt = self.solver().tilt(toss)?;
+        Ok((tilt, self.verdict(toss, tilt)?))
+    }
+
     /// The outcome without its proof or estimate.
     ///
     /// # Errors

@@ -26,13 +26,19 @@ class TossError(Exception):
     def __init__(
         self, message: str, *, field: str | None = None, index: int | None = None, valid: str | None = None
     ) -> None:
-        super().__init__(message)
+        # What others wrote may hold control characters. A message is one line.
+        super().__init__("".join(letter if letter.isprintable() else _escaped(letter) for letter in message))
         self.field = field
         self.index = index
         self.valid = valid
 
     def __reduce__(self) -> tuple[Callable[..., TossError], tuple[object, ...]]:
         return _again, (type(self), str(self), self.field, self.index, self.valid)
+
+
+def _escaped(letter: str) -> str:
+    """A letter as in the source of a text."""
+    return letter.encode("unicode_escape").decode()
 
 
 def _again(

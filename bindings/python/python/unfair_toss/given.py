@@ -94,5 +94,3 @@ def wrong(field: str, value: object, valid: str) -> MalformedError:
     """The exception of a value of another type than the argument has."""
     return MalformedError(f"{field} is of type {type(value).__name__}: expected {valid}", field=field, valid=valid)
 
-
-seed = drawn

@@ -17,7 +17,7 @@ use crate::watch::BudgetArgs;
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Coordinate along a row: rate_x, rate_y, rate_z, turn, psi, speed, gravity or tilt; its axis needs points
+    /// Coordinate along a row: rate_x, rate_y, rate_z, turn, psi, speed, gravity, tilt or drop; its axis needs points
     #[arg(long, value_name = "COORDINATE", default_value = "rate_x")]
     across: String,
     /// Coordinate from row to row, likewise

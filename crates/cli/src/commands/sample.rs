@@ -188,9 +188,8 @@ fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<
 /// 0 its sign could contradict the outcome.
 fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
     let toss: &Toss = &given.toss;
-    let landed = backend.solver().tilt(toss).and_then(|tilt| Ok((tilt, backend.verdict(toss, tilt)?)));
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
-    let (tilt, verdict) = landed.map_err(failed)?;
+    let (tilt, verdict) = backend.landed(toss).map_err(failed)?;
     Ok(given.row.landed(toss, tilt.cos_tilt, verdict))
 }
 

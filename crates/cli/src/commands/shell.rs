@@ -38,8 +38,11 @@ impl CompletionsArgs {
         clap_complete::generate(self.shell, &mut program, name, &mut script);
         let script = String::from_utf8_lossy(&script).into_owned();
         match self.shell {
-            // It takes the hyphen of the program's name for the mark of a command, but not everywhere.
-            Shell::Bash => script.replace("unfair__subcmd__toss", "unfair__toss"),
+            // It takes the hyphen of the program's name for the mark of a command, but not everywhere. In `--coin=us`, bash
+            // takes the sign between for a word.
+            Shell::Bash => script
+                .replace("unfair__subcmd__toss", "unfair__toss")
+                .replace("prev=\"$3\"", "prev=\"$3\"; [[ $prev == = ]] && prev=\"${COMP_WORDS[COMP_CWORD - 2]}\""),
             Shell::Fish => script + &positions_in_fish(&program),
             _ => script,
         }

@@ -1,6 +1,6 @@
 //! Rigid bodies with I1 ≠ I2: how they are given, what answers them, and that no command takes one for a coin.
 
-use crate::common::{run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 
 /// Every command that takes a coin either answers for a body, differently than for a coin, or refuses it.
 #[test]
@@ -45,6 +45,16 @@ fn no_command_takes_a_body_for_a_coin() {
                 assert_eq!(output.status.code(), Some(2), "{command} {body}: {said}");
                 assert!(said.contains("I1 ≠ I2"), "{command} {body}: {said}");
             }
+        }
+    }
+}
+
+#[test]
+fn a_body_at_rest_and_flat_has_angles_of_0_as_a_coin_has() {
+    for body in ["us-quarter", "racket"] {
+        let points = json(&format!("trace --coin {body} --rate 0,0,0 --time 1 --points 2"), 0)["points"].clone();
+        for point in points.as_array().expect("points") {
+            assert!(["alpha", "beta", "gamma"].iter().all(|angle| point[*angle] == 0.0), "{body}: {point}");
         }
     }
 }

@@ -110,6 +110,7 @@ fn bash_completes_options_and_their_values() {
         ("toss --tur", "--turn"),
         ("toss --rate 1,2,3 --ps", "--psi"),
         ("toss --coin us-q", "us-quarter us-quarter-engraved"),
+        ("toss --coin = us-q", "us-quarter us-quarter-engraved"),
         ("probability --space pap", "paper-fig4"),
         ("toss --solver q", "quaternion"),
         ("plan --solver e", "euler"),

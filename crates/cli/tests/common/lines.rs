@@ -6,7 +6,7 @@ use std::path::Path;
 use toss::Registry;
 use unfair_toss::{Streams, run_with};
 
-/// Command lines that are answered, each of another kind. `{}` is a folder with a scene, a space and a part.
+/// Command lines that are answered, each of another kind. `{}` is a folder with a scene, a space, counts and parts.
 pub(crate) const BASES: &[&str] = &[
     "toss --rate 20,5,3 --speed 3",
     "toss --rate 20,5,3 --time 0.6",
@@ -54,6 +54,29 @@ pub(crate) const BASES: &[&str] = &[
     "map --rate-x 1:40:3 --rate-y 5 --rate-z 10:30:3 --speed 3:4",
     "map --rate-x 1:40:3 --rate-y 5 --rate-z 10:30:3 --speed 3:4 --method random --points 64",
     "map --rate-x 1:40:3 --rate-y 5 --rate-z 10:30:3 --speed 3:4 --method random --points 64 --solver quaternion --scheme rk4 --step 0.002",
+    "probability --turn 30:40 --psi 40deg:80deg --speed 3:4 --method random --points 10000",
+    "probability --turn 30:40 --psi normal:60deg:5deg --speed 3:4 --method exact-speed --points 1024",
+    "probability --rate-x 1:40 --rate-y 5 --rate-z 10:30 --speed 3:4 --drop 0:0.5 --method random --points 10000",
+    "probability --turn 38 --psi 50deg:60deg --speed 2.4 --drop normal:0.2:0.05 --method sobol --points 1024",
+    "sample --turn 30:40 --psi 40deg:80deg --speed 3:4 --drop 0:0.5 --points 8",
+    "map --turn 30:40:3 --psi 40deg:80deg:3 --speed 3:4 --across turn --up psi",
+    "map --turn 30:40 --psi 40deg:80deg:3 --speed 2:4:3 --drop 0.2 --across psi --up speed --method random --points 64",
+    "map --rate-x 1:40:3 --rate-y 5 --rate-z 10:30 --speed 3 --drop 0:1:3 --across rate_x --up drop --method random --points 64",
+    "convergence --turn 30:40:8 --psi 40deg:80deg:8 --speed 3 --drop 0:1:4",
+    "errors --turn 30:40 --psi 40deg:80deg --speed 3:4 --up-to 8 --replicates 1",
+    "intervals --coin us-quarter --turn 38rev/s --psi 60deg --speed 2:3",
+    "trace --turn 38rev/s --psi 60deg --speed 2.4 --points 4",
+    "compare --turn 38rev/s --psi 60deg --speed 2.4 --tilt 1 --repeats 0",
+    "plan --turn 38rev/s --psi 60deg --speed 2.4 --want tilt --accuracy 1e-9",
+    "inverse --counts {}/counts.csv",
+    "power",
+    "power --people 25",
+    "power --flips 200",
+    "power --people 25 --flips 200",
+    "coins",
+    "solvers",
+    "models",
+    "spaces",
     "merge {}/part-1.json {}/part-2.json",
     "plan --rate 20,5,3 --speed 3 --want tilt --accuracy 1e-9",
     "plan --rate 20,5,3 --speed 3 --want outcome --accuracy 1e-9",
@@ -106,6 +129,11 @@ pub(crate) const VALUES: &[(&str, &[&str])] = &[
     ("want", &["outcome", "trace", "probability"]),
     ("probability", &["0.8"]),
     ("counts", &["3/4"]),
+    ("share", &["0.52"]),
+    ("sd", &["0.03"]),
+    ("power", &["0.9"]),
+    ("people", &["30"]),
+    ("flips", &["150"]),
     ("shard", &["1/2"]),
     ("out", &["{}/other.json"]),
     ("dt", &["0.1"]),
@@ -137,6 +165,7 @@ pub(crate) fn write_files(folder: &Path) {
     std::fs::write(folder.join("scene.json"), scene).expect("a file");
     let space = "rate_x = '1:40'\nrate_y = 5\nrate_z = '10:30'\nspeed = 3\n";
     std::fs::write(folder.join("space.toml"), space).expect("a file");
+    std::fs::write(folder.join("counts.csv"), "same,tosses\n60,100\n55,100\n52,100\n").expect("a file");
     for part in 1..=2 {
         let line = "probability --rate-x 1:40 --rate-y 5 --rate-z 10:30 --speed 3:4 --method random --points 100";
         let line = format!("{line} --shard {part}/2 --out {}/part-{part}.json", folder.display());

@@ -64,6 +64,9 @@ const LAUNCH_FIELDS: &[&str] = &[
     "wobble",
 ];
 
+/// The last of them, which are known only to be refused with the reason.
+const REFUSED: [&str; 3] = ["drag", "bounce", "wobble"];
+
 static LAUNCH_OF_BODY: Part = Part {
     name: None,
     list: None,
@@ -154,7 +157,8 @@ impl<'de> DeserializeSeed<'de> for Name {
     fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
         let name = String::deserialize(from)?;
         let known = self.0.fields.iter().find(|known| **known == name).copied();
-        known.ok_or_else(|| D::Error::unknown_field(&name, self.0.fields))
+        let taken = self.0.fields.strip_suffix(&REFUSED).unwrap_or(self.0.fields);
+        known.ok_or_else(|| D::Error::unknown_field(&name, taken))
     }
 }
 

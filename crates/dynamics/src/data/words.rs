@@ -8,7 +8,7 @@
 /// ```
 pub fn in_words(message: &str) -> String {
     let line = message.lines().map(str::trim).collect::<Vec<_>>().join(", ");
-    let line = line.replace("EOF while parsing", "the text ends within");
+    let line = line.replace("EOF while parsing", "the text ends within").replace("` as i128,", "`,");
     match line.rsplit_once(", expected ") {
         Some((found, expected)) => format!("{}, expected {}", found_in_words(found), expected_in_words(expected)),
         None => line,
@@ -31,6 +31,8 @@ fn expected_in_words(expected: &str) -> String {
         "u64" | "usize" => "a whole number from 0".to_owned(),
         "a sequence" => "a list".to_owned(),
         "map" => "a table".to_owned(),
+        // Of a whole number of more than 64 bits.
+        "any value" => "a number with a point".to_owned(),
         _ if expected.starts_with("struct ") => "a table".to_owned(),
         _ => expected.replacen("an array of length", "a list of", 1),
     }
@@ -47,6 +49,10 @@ mod tests {
             ("invalid value: integer `-1`, expected u64", "invalid value: number `-1`, expected a whole number from 0"),
             ("invalid length 0, expected struct Scene with 3 elements", "invalid length 0, expected a table"),
             ("invalid length 1, expected an array of length 2", "invalid length 1, expected a list of 2"),
+            (
+                "invalid type: integer `9` as i128, expected any value",
+                "invalid type: number `9`, expected a number with a point",
+            ),
             ("EOF while parsing an object", "the text ends within an object"),
             ("invalid basic string\nexpected `\"`", "invalid basic string, expected `\"`"),
             ("unknown field `a`, expected `b` or `c`", "unknown field `a`, expected `b` or `c`"),
