@@ -48,7 +48,7 @@ fn a_command_that_is_killed_leaves_no_file() {
 /// Commands that take minutes, and a part of what each knows early.
 const LONG: [(&str, &str); 11] = [
     (
-        "probability --rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --tilt 0.1 --speed 3:5 --method enclosure --accuracy 1e-6",
+        "probability --rate-x 10:20 --rate-y 0:30 --rate-z 20:30 --tilt 1 --speed 3:5 --method enclosure --accuracy 3e-6",
         "(proven)",
     ),
     ("probability --space paper-fig4 --method random --points 1e12", "clopper-pearson"),

@@ -144,7 +144,10 @@ fn number_of_wrong(toss: &Toss, outcome: Outcome, looks: u32, margins: &[(Input,
         let Some(margin) = margin else { return is_same_up_to(*range) };
         // The change is rounded when it is added to the value.
         let close = CLOSE.max(4.0 * f64::EPSILON * value(toss).abs() / margin.abs());
-        stays(margin * (1.0 + close)) == Some(false) && is_same_up_to(margin.abs() * (1.0 - close))
+        // A flip after more turns than the reference can fly is not judged.
+        let flips = changed(toss, margin * (1.0 + close))
+            .is_some_and(|after| Reference::of(&after).map_or(true, |after| after.outcome() != outcome));
+        flips && is_same_up_to(margin.abs() * (1.0 - close))
     };
     (margins.len() - margins.iter().filter(is_right).count()) as f64
 }
