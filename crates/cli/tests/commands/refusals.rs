@@ -105,6 +105,19 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
             "line 4, column 28: unknown field `mass`",
         ),
         (
+            "a.toml",
+            "accuracy = 1\n[want.probability]\nrate_x = 1\nrate_y = 1\nrate_z = 1\nspin = 1\nspeed = 3".to_owned(),
+            "line 6, column 1: unknown field `spin`",
+        ),
+        ("a.json", json_of(r#"{"launch": {"rate": [1, 1, 2, 3], "speed": 3}}"#), "line 3, column 32: rate"),
+        ("a.json", json_of(r#"{"launch": {"rate": [1, 1, 2], "speed": 3, "spin": 1}}"#), "unknown field `spin`"),
+        ("a.json", json_of(r#"{"spin": 1, "launch": {"rate": [1, 1, 2], "speed": 3}}"#), "unknown field `spin`"),
+        (
+            "a.json",
+            json_of(r#"{"coin": {"moments": [1, 1], "cylinder": [1, 1, 1]}}"#),
+            "line 3, column 51: cylinder = 'given twice'",
+        ),
+        (
             "a.json",
             "{\"accuracy\": 1, \"want\": {\"trace\": {\"points\": 3,\n\"spin\": 1}}}".to_owned(),
             "line 2, column 6: unknown field `spin`",
