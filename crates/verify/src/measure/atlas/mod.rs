@@ -40,7 +40,7 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Solves every hazard at every distance with every contestant of `registry`; with few cases, not at the [`SLOW`] ones.
+    /// Solves every hazard at every distance with every contestant of `registry`; with few cases, not at those that take longest.
     pub fn new(registry: &[SolverEntry], effort: Effort) -> anyhow::Result<Self> {
         let contestants = contestants_at(registry, None)?;
         let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
