@@ -8,7 +8,7 @@
 //!
 //! In units of u = 2^-53, m is off by 6u (sine and cosine 2u each of a tilt; products, norm and division of a quaternion), A,
 //! B and C by 24u |L|² in all, sine, cosine and the scale by 3u each, and φ by less than 2^-56: together less than 1e-14, a
-//! hundredth of [`PROVEN_ABOVE`]. φ, of at most 2^43 rad, has a relative error of some u² from the products, and from the root,
+//! hundredth of `PROVEN_ABOVE`. φ, of at most 2^43 rad, has a relative error of some u² from the products, and from the root,
 //! whose rest is of the first order in the rest of d: at most ε²/8 of itself with ε = 2u v0²/d ≤ 20u, as d is at least a tenth
 //! of v0².
 
