@@ -44,8 +44,8 @@ const FINEST: f64 = 2e-14;
 /// which the number of cells follows that an accuracy takes.
 const FIRST_PASS: u64 = 1 << 18;
 
-/// No pass follows one that took more than the fourth part of the cells that are allowed.
-const LAST_PASS: u64 = 4;
+/// No pass follows one that took more than half of the cells that are allowed.
+const LAST_PASS: u64 = 2;
 
 /// 2^53 rad.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -100,8 +100,8 @@ pub fn require_enclosable(space: &Space) -> Result<(), InputError> {
     Ok(())
 }
 
-/// A bound of the phases at landing (rad), but for some roundings.
-fn largest_phase(space: &Space) -> f64 {
+/// A bound of the phases at landing (rad) in a space of launches that land at their height, but for some roundings.
+pub fn largest_phase(space: &Space) -> f64 {
     let most = |of: Coordinate| space.axis(of).bounds().into_iter().fold(0.0_f64, |most, end| most.max(end.abs()));
     let size = most(Coordinate::RateX).hypot(most(Coordinate::RateY)).hypot(2.0 * most(Coordinate::RateZ));
     let [weakest, _] = space.axis(Coordinate::Gravity).bounds();
@@ -211,46 +211,28 @@ struct Passes {
     power: f64,
     most_cells: u64,
     threshold: f64,
-    /// The last width that was clearly narrower than those before, its threshold and its cells.
-    narrowest: Option<[f64; 3]>,
+    /// The last width that was clearly narrower than those before, and its threshold.
+    narrowest: Option<[f64; 2]>,
 }
-
-/// A width that falls more slowly than with this power of the cells is not waited for.
-const SLOWEST: f64 = -0.5;
-
-/// So many times the cells of the last pass may be wanted where the width falls slowly.
-const FEW_MORE: f64 = 4.0;
 
 impl Passes {
     /// Whether another pass follows one that gave the width `now`. If so, lowers the threshold.
     fn is_next(&mut self, now: f64, cells: u64) -> bool {
-        let is_narrower = self.narrowest.is_none_or(|[before, ..]| now < 0.9 * before);
-        let is_slow = is_narrower && self.is_slow(now, cells as f64);
+        let is_narrower = self.narrowest.is_none_or(|[before, _]| now < 0.9 * before);
         if is_narrower {
-            self.narrowest = Some([now, self.threshold, cells as f64]);
+            self.narrowest = Some([now, self.threshold]);
         }
         // If far smaller cells add up to the same width, roundings make it, and no pass helps. Nor is another begun if it would
         // take too many cells.
-        let is_in_vain = self.narrowest.is_some_and(|[_, at, _]| self.threshold < 1e-3 * at);
-        // The cells grow roughly as the width falls.
-        let is_too_far = cells > FIRST_PASS / LAST_PASS && now / self.goal * cells as f64 > self.most_cells as f64;
-        let is_stuck = !is_narrower && cells > FIRST_PASS / LAST_PASS;
-        if now <= self.goal || is_in_vain || is_stuck || is_slow || is_too_far || self.most_cells < LAST_PASS * cells {
+        let is_in_vain = self.narrowest.is_some_and(|[_, at]| self.threshold < 1e-3 * at);
+        let is_stuck = !is_narrower && cells > FIRST_PASS / 4;
+        if now <= self.goal || is_in_vain || is_stuck || self.most_cells < LAST_PASS * cells {
             return false;
         }
         let wanted = 0.8 * (self.goal / now).powf(self.power);
         let affordable = (self.most_cells as f64 / (LAST_PASS * cells) as f64).powf(-self.power);
         self.threshold *= wanted.max(affordable).clamp(0.05, if is_narrower { 0.7 } else { 0.05 });
         true
-    }
-
-    /// Whether the last two passes tell that the width falls slowly, as where a surface on which the launches graze the edge is
-    /// divided in three directions, and that the goal would take many times the cells.
-    fn is_slow(&self, now: f64, cells: f64) -> bool {
-        let Some([before, _, fewer]) = self.narrowest else { return false };
-        let power = (now / before).ln() / (cells / fewer).ln();
-        let wanted = (self.goal / now).powf(1.0 / power);
-        cells > (FIRST_PASS / LAST_PASS) as f64 && power > SLOWEST && wanted > FEW_MORE
     }
 }
 

@@ -28,12 +28,13 @@ pub struct Sampler<'a> {
     pub(crate) progress: Progress<'a>,
     pub(crate) narrowed: Narrowed<'a>,
     pub(crate) stop: Stop<'a>,
+    most_cells: u64,
 }
 
 impl Sampler<'static> {
     /// A sampler that decides outcomes by the exact motion. Every outcome is proven.
     pub fn exact() -> Self {
-        Self { decider: Decider::Exact, progress: &|_| {}, narrowed: &|_| {}, stop: &|| false }
+        Self::with(Decider::Exact)
     }
 }
 
@@ -41,7 +42,11 @@ impl<'a> Sampler<'a> {
     /// A sampler that decides outcomes by `solver`. Outcomes within its error estimate are undecided, and none is
     /// proven.
     pub fn by(solver: &'a dyn Solver) -> Self {
-        Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {}, narrowed: &|_| {}, stop: &|| false }
+        Self::with(Decider::Solver(Checked::new(solver)))
+    }
+
+    fn with(decider: Decider<'a>) -> Self {
+        Self { decider, progress: &|_| {}, narrowed: &|_| {}, stop: &|| false, most_cells: MOST_CELLS }
     }
 
     /// Whether the exact motion decides.
@@ -78,9 +83,15 @@ impl<'a> Sampler<'a> {
         Sampler { stop, ..self }
     }
 
+    /// Sets the largest number of cells of an enclosure, which is 2^24 if it is not set.
+    #[must_use]
+    pub fn within(self, most_cells: u64) -> Self {
+        Self { most_cells, ..self }
+    }
+
     /// The same sampler without progress reports.
     pub(crate) fn silent(&self) -> Sampler<'a> {
-        Sampler { decider: self.decider.clone(), progress: &|_| {}, narrowed: &|_| {}, stop: self.stop }
+        Sampler { progress: &|_| {}, narrowed: &|_| {}, ..self.clone() }
     }
 
     /// Estimates the probability of heads in `space` by `plan`.
@@ -93,7 +104,7 @@ impl<'a> Sampler<'a> {
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
         self.require_exact()?;
-        enclosure::estimate((self.progress, self.narrowed, self.stop), space, accuracy, MOST_CELLS)
+        enclosure::estimate((self.progress, self.narrowed, self.stop), space, accuracy, self.most_cells)
     }
 
     /// Estimates the probability of heads from the launches of a plan. A program that calls this function and not

@@ -76,7 +76,7 @@ impl Choice {
 
     /// Whether no error is larger than the expected one.
     pub fn is_certified(&self) -> bool {
-        matches!(self.how, How::Proof(_))
+        matches!(self.how, How::Proof(_) | How::Sampling(sampling::Plan::Enclosure { .. }))
     }
 }
 

@@ -17,7 +17,7 @@ use crate::model::{Kind, MODELS, Model, Of};
 use crate::proofs::{plan as proof, run as proven};
 use crate::reason::Reason;
 use crate::registry::Registry;
-use crate::samples::{is_out_of_reach, sampled, samples};
+use crate::samples::{is_out_of_reach, run, samples};
 use crate::scene::{Integrator, Scene, Want};
 use crate::trace::require_points;
 
@@ -208,7 +208,7 @@ impl Choice {
             (How::Proof(stepping), _, want) => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
-                Ok(Answer::Probability(Box::new(sampled(sampler, space, *plan, scene.accuracy)?)))
+                Ok(Answer::Probability(Box::new(run(sampler, space, *plan, scene.accuracy)?)))
             }
             _ => Err(other().into()),
         }

@@ -28,8 +28,6 @@ pub enum Reason {
     SpeedIsFixed,
     /// Other coordinates than the speed are free, and the model handles the speed only.
     MoreIsFree,
-    /// The model's cost is not known before.
-    UnknownCost,
     /// The model has no error estimate.
     TellsNoError,
     /// The coins land below or above their launch.
@@ -48,7 +46,6 @@ impl fmt::Display for Reason {
             Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
-            Self::UnknownCost => f.write_str("takes a time that is not known before, and has to be chosen by hand"),
             Self::TellsNoError => f.write_str("has no error estimate"),
             Self::OnlyCoins => f.write_str("is for coins, with I1 = I2"),
             Self::HasDrop => f.write_str("needs a landing at the height of the launch"),

@@ -1,18 +1,23 @@
-//! Plans and runs the models that sample a space of launches. The number of launches N follows from the error e N^-p that
-//! the table of [models](crate::model) states: it is N = (e/accuracy)^(1/p). This error was measured on other spaces, so an
-//! estimate whose interval turns out wider than the accuracy is repeated with twice as many launches.
+//! Plans and runs the models that give the probability of a space of launches. The number N of launches of a sample follows
+//! from the error e N^-p that the table of [models](crate::model) states: it is N = (e/accuracy)^(1/p). This error was measured
+//! on other spaces, so an estimate whose interval turns out wider than the accuracy is repeated with twice as many launches. An
+//! enclosure that takes many more cells than the table states gives way to the next model.
 
 use dynamics::{Error, InputError};
+use sampling::enclosure::{MOST_CELLS, coordinates, largest_phase, require_accuracy, require_enclosable};
 use sampling::plan::SCRAMBLES;
 use sampling::{Estimate, Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
-use crate::model::{Fit, Kind, MODELS, Model, Of};
+use crate::model::{CELLS, Cells, Fit, Kind, MODELS, Model, Of, USUAL_PHASE};
 use crate::reason::Reason;
 use crate::scene::{Scene, Want};
 
 /// The seed of all planned samples. Any other number would serve as well.
 const SEED: u64 = 1;
+
+/// How many times the expected cells an enclosure may take before another model is tried: nearly all random spaces took fewer.
+const SPARE: f64 = 16.0;
 
 /// The largest number of launches that is planned.
 const MOST_LAUNCHES: u64 = 1 << 36;
@@ -36,7 +41,10 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
             Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, fit, (space, scene.accuracy)))))
         }
         Kind::Enclosure if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
-        Kind::Enclosure => Some((model.into(), Err(Reason::UnknownCost))),
+        Kind::Enclosure => {
+            let offer = enclosure(model, space, scene.accuracy);
+            Some((model.into(), offer.map_err(|error| Reason::Fails(error.into()))))
+        }
         _ => None,
     };
     Ok(MODELS.iter().filter_map(offer).collect())
@@ -79,6 +87,24 @@ fn offer(
     }
 }
 
+/// The offer of an enclosure, whose error is proven to be at most `accuracy`.
+///
+/// # Errors
+/// [`InputError`] for a space that has no enclosure, and for an accuracy that roundings do not allow.
+fn enclosure(model: &'static Model, space: &Space, accuracy: f64) -> Result<Choice, InputError> {
+    require_enclosable(space)?;
+    let how = How::Sampling(Plan::Enclosure { accuracy: require_accuracy(accuracy)? });
+    let [cells, cell_ns] = cells(space, accuracy);
+    Ok(Choice { model, how, expected_error: accuracy, expected_cost_ns: cells * cell_ns, points: None })
+}
+
+/// The number of cells that an enclosure of `space` is expected to take, and the cost of each (ns).
+fn cells(space: &Space, accuracy: f64) -> [f64; 2] {
+    let Cells { first, power, by_phase, cell_ns } = CELLS[coordinates(space).min(CELLS.len() - 1)];
+    let phase = (largest_phase(space) / USUAL_PHASE).max(0.2);
+    [(first * accuracy.powf(-power) * phase.powf(by_phase)).max(1.0), cell_ns]
+}
+
 /// The number of launches for which the expected error equals the accuracy, rounded up to a power of two for scrambled
 /// points.
 fn points_for([error, power]: [f64; 2], plan: fn(u64, u64) -> Plan, accuracy: f64) -> Result<u64, Reason> {
@@ -94,9 +120,19 @@ fn points_for([error, power]: [f64; 2], plan: fn(u64, u64) -> Plan, accuracy: f6
     Ok(if is_independent { needed } else { needed.next_power_of_two().max(SCRAMBLES * 2) })
 }
 
+/// Runs a plan that was [offered](samples). An enclosure may take [`SPARE`] times the cells that were expected.
+pub(crate) fn run(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
+    if !matches!(plan, Plan::Enclosure { .. }) {
+        return sampled(sampler, space, plan, accuracy);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
+    let most_cells = (SPARE * cells(space, accuracy)[0]) as u64;
+    sampled(&sampler.clone().within(most_cells.min(MOST_CELLS)), space, plan, accuracy)
+}
+
 /// Runs `plan` by `sampler`, with twice the launches again and again as long as the half-width of the interval exceeds the
 /// accuracy. When it is time to end, the last estimate is the answer.
-pub(crate) fn sampled(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
+fn sampled(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
     let found = sampler.estimate(space, plan)?;
     let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
     match (found.half_width(), refined(plan, accuracy)) {
@@ -130,4 +166,25 @@ fn refined(plan: Plan, accuracy: f64) -> Option<Plan> {
 /// Whether `error` is that of a model that does not reach its accuracy for a space, however many launches it takes.
 pub(crate) fn is_out_of_reach(error: &Error) -> bool {
     matches!(error, Error::NotReached { number, .. } if *number < MOST_LAUNCHES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wide interval is proven, too, but a plan promises its accuracy.
+    #[test]
+    fn an_enclosure_of_too_many_cells_gives_way_to_another_model() {
+        let space = sampling::named_space("paper-fig4").expect("a named space");
+        let (few, accuracy) = (Sampler::exact().within(40), 1e-8);
+        let plan = Plan::Enclosure { accuracy };
+        let wide = few.estimate(&space, plan).expect("an interval");
+        assert!(wide.half_width().is_some_and(|reached| reached > accuracy));
+        let error = sampled(&few, &space, plan, accuracy).expect_err("too few cells");
+        assert!(is_out_of_reach(&error) && matches!(error, Error::NotReached { of: "cells", .. }), "{error:?}");
+        assert!(run(&few, &space, plan, accuracy).is_ok_and(|found| !found.is_wider_than_asked()));
+        // Somebody who ends the search has what was found.
+        let ended = few.until(&|| true);
+        assert!(sampled(&ended, &space, plan, accuracy).is_ok_and(|found| found.is_wider_than_asked()));
+    }
 }

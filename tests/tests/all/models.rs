@@ -98,24 +98,49 @@ fn box_of_four() -> Space {
     boxed.speed(3.0..=5.0).build().expect("valid ranges")
 }
 
+/// Why a plan of the probability of `space` passes the enclosure over.
+fn enclosure_is_passed_over(space: Space, accuracy: f64) -> String {
+    let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
+    let mut passed_over = decision.passed_over.iter();
+    passed_over.find(|(candidate, _)| candidate.model.name == "share-enclosure").unwrap().1.to_string()
+}
+
 #[test]
-fn enclosure_is_never_planned() {
+fn an_enclosure_is_planned_where_it_is_cheaper_and_its_answer_is_proven() {
     let fig4 = sampling::named_space("paper-fig4").unwrap();
-    for (space, accuracy, chosen) in
-        [(fig4, 1e-2, "share-sobol"), (fig4, 1e-8, "share-sobol"), (box_of_four(), 1e-5, "share-sobol")]
-    {
-        let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
-        assert_eq!(decision.choice.model.name, chosen);
-        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
-        assert_eq!(
-            reason.unwrap().1.to_string(),
-            "takes a time that is not known before, and has to be chosen by hand"
-        );
+    let still = Space::builder(Coin::PAPER).rate_x(1.0..=60.0).rate_y(5.0).rate_z(1.0..=60.0).speed(4.0);
+    for (space, accuracy, chosen) in [
+        (fig4, 1e-2, "share-sobol"),
+        (fig4, 1e-8, "share-enclosure"),
+        (box_of_four(), 1e-5, "share-sobol"),
+        (still.build().unwrap(), 1e-4, "share-enclosure"),
+    ] {
+        let scene = Scene::new(Want::Probability(space), accuracy);
+        let planned = scene.plan().unwrap().choice;
+        assert_eq!(planned.model.name, chosen);
+        assert_eq!(planned.is_certified(), chosen == "share-enclosure");
+        let solution = scene.solve().unwrap();
+        let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };
+        assert_eq!((solution.model, found.plan.method().name()), (planned.model, planned.method().unwrap()));
+        assert!(found.half_width().unwrap() <= accuracy, "{found:?}");
+        assert_eq!(found.interval_kind == sampling::IntervalKind::Proven, planned.is_certified());
     }
+}
+
+#[test]
+fn an_enclosure_is_passed_over_with_its_reason() {
+    assert_eq!(
+        enclosure_is_passed_over(sampling::named_space("paper-fig4").unwrap(), 1e-2),
+        "serves, but takes 120.9 µs"
+    );
     let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap()).unwrap();
-    let decision = Scene::new(Want::Probability(body), 1e-2).plan().unwrap();
-    let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
-    assert_eq!(reason.unwrap().1.to_string(), "is for coins, with I1 = I2");
+    assert_eq!(enclosure_is_passed_over(body, 1e-2), "is for coins, with I1 = I2");
+    let normal = Space::builder(Coin::PAPER).rate_x(1.0..=60.0).rate_y(5.0).rate_z(1.0).speed(Axis::normal(4.0, 0.1));
+    let why = enclosure_is_passed_over(normal.build().unwrap(), 1e-4);
+    assert!(
+        why.ends_with("enclosure takes a range of speeds or a single one; exact-speed takes a normal distribution"),
+        "{why}"
+    );
 }
 
 /// Spaces that show tails in a narrow part of themselves alone, between all nodes of a rule: for a spin near 0, or for some

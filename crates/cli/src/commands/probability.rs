@@ -142,7 +142,8 @@ impl Args {
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        watch.show(None, "launches");
+        let is_enclosed = scene.plan()?.choice.method() == Some(Method::Enclosure.name());
+        watch.show(None, if is_enclosed { "cells" } else { "launches" });
         let run = |sampler: &Sampler<'_>| scene.choose_and_run_by(Registry::standard(), sampler);
         let (_, answer) = self.threads.run(|| watch.ask(backend.sampler(), run))??;
         if let Answer::Probability(found) = answer { Ok(*found) } else { Err(no_sample()) }
