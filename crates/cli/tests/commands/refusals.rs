@@ -147,7 +147,7 @@ fn a_scene_is_read_from_a_file() {
     let text =
         r#"{"accuracy": 1e-3, "want": {"probability": {"rate_x": "0:9", "rate_y": "x", "rate_z": 5, "speed": "3:5"}}}"#;
     std::fs::write(&json_path, text).unwrap();
-    assert_eq!(json(&format!("plan --scene {}", json_path.display()), 0)["model"], "share-sobol");
+    assert_eq!(json(&format!("plan --scene {}", json_path.display()), 0)["model"], "share-enclosure");
     std::fs::write(&path, format!("accuracy = 1e-9\n[want.tilt]\n{}", toss.replace(" }", ", drag = 1 }"))).unwrap();
     let error = json(&format!("plan --scene {}", path.display()), 2);
     assert!(error["error"]["message"].as_str().unwrap().contains("drag is outside the model"), "{error}");
