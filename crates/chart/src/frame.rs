@@ -171,9 +171,6 @@ impl Axis {
 
 /// Draws the axes `x` and `y` on `panel` with `title` above them, and leaves `right` pixels free beside them. Neither title
 /// nor label take room where they are empty.
-///
-/// # Errors
-/// As the backend's.
 pub fn frame<'a, 'b>(
     panel: &'a Panel<'b>,
     title: &str,
@@ -207,9 +204,6 @@ fn size(panel: &Panel<'_>) -> (i32, i32) {
 }
 
 /// Draws `words` with their middle at `at` (pixels of `panel`).
-///
-/// # Errors
-/// As the backend's.
 pub fn centred(panel: &Panel<'_>, words: &str, at: (i32, i32)) -> Drawn {
     let style = TEXT.into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Center));
     panel.draw(&Text::new(words.to_owned(), at, style))?;

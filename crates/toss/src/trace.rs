@@ -114,9 +114,6 @@ pub fn trace_points<'a>(
 }
 
 /// The attitudes (BF to LF) of [`trace`], each computed when it is asked for. Without Euler angles they take little more than half the time.
-///
-/// # Errors
-/// As [`trace_points`].
 pub(crate) fn attitudes<'a>(
     solver: &'a dyn Solver,
     toss: &'a Toss,
@@ -178,9 +175,6 @@ pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -
 }
 
 /// As [`trace_points`], with proven bounds of the errors at each point.
-///
-/// # Errors
-/// As [`trace_points`].
 pub fn enclosed_points<'a>(
     solver: &'a QuaternionSolver,
     toss: &'a Toss,
