@@ -166,14 +166,6 @@ pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> 
     enclosed_points(solver, toss, Times::Number(points))?.collect()
 }
 
-/// As [`trace_every`], with proven bounds of the errors at each point.
-///
-/// # Errors
-/// As [`trace_every`] and [`QuaternionSolver::enclose`].
-pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
-    enclosed_points(solver, toss, Times::Every(step))?.collect()
-}
-
 /// As [`trace_points`], with proven bounds of the errors at each point.
 pub fn enclosed_points<'a>(
     solver: &'a QuaternionSolver,

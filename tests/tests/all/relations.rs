@@ -3,9 +3,7 @@
 //!
 //! BF is the body frame, whose z axis is the normal n; θ is the angle between n and the vertical.
 
-use blackbox::{
-    attitude_error, body_tosses, coin_and_body, config, lasting, name, phase, solvers, tilt_error, toss, tosses,
-};
+use blackbox::{attitude_error, body_tosses, coin_and_body, config, lasting, name, solvers, tilt_error, toss, tosses};
 use dynamics::Singularity;
 use proptest::prelude::*;
 use toss::{
