@@ -37,9 +37,6 @@ pub(crate) fn run(program: &str, arguments: &[String]) -> Result<ExitCode, Strin
 }
 
 /// As [`run`], of the package with this `manifest` instead of the workspace.
-///
-/// # Errors
-/// As [`run`].
 pub(crate) fn run_of(manifest: Option<&str>, program: &str, arguments: &[String]) -> Result<ExitCode, String> {
     let status =
         built_of(manifest, program).args(arguments).status().map_err(|error| format!("cannot start cargo: {error}"))?;

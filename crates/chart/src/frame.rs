@@ -78,7 +78,7 @@ pub struct Axis {
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
     Linear,
-    Logarithmic { starts_at_zero: bool },
+    Logarithmic,
     Named(Vec<String>),
 }
 
@@ -90,13 +90,7 @@ impl Axis {
 
     /// A logarithmic axis for `label`, a quantity and its unit. Both ends of `range` are positive; it may fall.
     pub fn logarithmic(label: &str, range: Range<f64>) -> Self {
-        Self { label: label.to_owned(), range, kind: Kind::Logarithmic { starts_at_zero: false } }
-    }
-
-    /// The logarithmic axis whose first value stands for 0 and is labelled so.
-    #[must_use]
-    pub fn starting_at_zero(self) -> Self {
-        Self { kind: Kind::Logarithmic { starts_at_zero: true }, ..self }
+        Self { label: label.to_owned(), range, kind: Kind::Logarithmic }
     }
 
     /// An axis of things that have names instead of values. They lie at 0, 1, 2 and so on.
@@ -106,7 +100,7 @@ impl Axis {
 
     /// Where `value` lies in a frame. On a logarithmic axis values outside the range lie at its ends.
     pub fn position(&self, value: f64) -> f64 {
-        if !matches!(self.kind, Kind::Logarithmic { .. }) {
+        if self.kind != Kind::Logarithmic {
             return value;
         }
         let Range { start, end } = self.range;
@@ -127,7 +121,7 @@ impl Axis {
     /// The positions from one end of the frame to the other.
     pub(crate) fn span(&self) -> Range<f64> {
         let (first, last) = (self.position(self.range.start), self.position(self.range.end));
-        let padding = if matches!(self.kind, Kind::Logarithmic { .. }) { PADDING * (last - first) } else { 0.0 };
+        let padding = if self.kind == Kind::Logarithmic { PADDING * (last - first) } else { 0.0 };
         first - padding..last + padding
     }
 
@@ -140,40 +134,27 @@ impl Axis {
         let apart = match self.kind {
             _ if is_upright => APART_UPWARDS,
             Kind::Linear => APART_LINEAR,
-            Kind::Logarithmic { .. } => APART_LOGARITHMIC,
+            Kind::Logarithmic => APART_LOGARITHMIC,
             Kind::Named(_) => APART_NAMES,
         };
         let most = usize::try_from(pixels / apart).unwrap_or(0).max(2);
         match &self.kind {
             Kind::Linear => ticks::linear(self.range.start, self.range.end, most),
-            Kind::Logarithmic { starts_at_zero } => self.logarithmic_ticks(*starts_at_zero, most),
+            Kind::Logarithmic => {
+                let Range { start, end } = self.range;
+                let ticks = ticks::logarithmic(start.min(end), start.max(end), most).into_iter();
+                ticks.map(|tick| Tick { value: self.position(tick.value), ..tick }).collect()
+            }
             Kind::Named(names) => {
                 let tick = |(at, name): (usize, &String)| Tick { value: at as f64, label: name.clone() };
                 names.iter().enumerate().step_by(names.len().div_ceil(most).max(1)).map(tick).collect()
             }
         }
     }
-
-    fn logarithmic_ticks(&self, starts_at_zero: bool, most: usize) -> Vec<Tick> {
-        let Range { start, end } = self.range;
-        // The mark of 0 takes the place of those next to it.
-        let least = if starts_at_zero { 10.0 * start } else { start.min(end) };
-        let mut ticks = ticks::logarithmic(least, start.max(end), most);
-        for tick in &mut ticks {
-            tick.value = self.position(tick.value);
-        }
-        if starts_at_zero {
-            ticks.push(Tick { value: self.position(start), label: "0".to_owned() });
-        }
-        ticks
-    }
 }
 
 /// Draws the axes `x` and `y` on `panel` with `title` above them, and leaves `right` pixels free beside them. Neither title
 /// nor label take room where they are empty.
-///
-/// # Errors
-/// As the backend's.
 pub fn frame<'a, 'b>(
     panel: &'a Panel<'b>,
     title: &str,
@@ -207,9 +188,6 @@ fn size(panel: &Panel<'_>) -> (i32, i32) {
 }
 
 /// Draws `words` with their middle at `at` (pixels of `panel`).
-///
-/// # Errors
-/// As the backend's.
 pub fn centred(panel: &Panel<'_>, words: &str, at: (i32, i32)) -> Drawn {
     let style = TEXT.into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Center));
     panel.draw(&Text::new(words.to_owned(), at, style))?;
@@ -249,13 +227,13 @@ mod tests {
     }
 
     #[test]
-    fn a_logarithmic_axis_leaves_room_beyond_its_ends_and_marks_zero() {
-        let axis = Axis::logarithmic("distance", 1e-18..1.0).starting_at_zero();
+    fn a_logarithmic_axis_leaves_room_beyond_its_ends() {
+        let axis = Axis::logarithmic("distance", 1e-18..1.0);
         let (first, last) = (axis.position(0.0), axis.position(3.0));
         assert_eq!((first, last), (-18.0, 0.0));
         assert!(axis.span().start < first && last < axis.span().end);
         let labels: Vec<String> = axis.ticks(900, false).into_iter().map(|tick| tick.label).collect();
-        assert_eq!(labels, ["1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "1e0", "0"]);
+        assert_eq!(labels, ["1e-18", "1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "1e0"]);
         let falling = Axis::logarithmic("error", 10.0..1e-18);
         assert!(falling.position(1.0) < falling.position(1e-9));
     }

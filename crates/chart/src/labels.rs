@@ -19,9 +19,6 @@ pub struct EndLabel {
 }
 
 /// Draws `labels` in a column at `x` (pixels), from the top down and none over another.
-///
-/// # Errors
-/// As the backend's.
 pub fn end_labels(panel: &Panel<'_>, x: i32, mut labels: Vec<EndLabel>) -> Drawn {
     labels.sort_by_key(|label| label.y);
     let mut lowest = i32::MIN;

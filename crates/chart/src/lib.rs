@@ -19,8 +19,6 @@ use thiserror::Error;
 // From the palette of Okabe and Ito, whose colours every kind of colour vision tells apart.
 /// Blue.
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
-/// Light blue.
-pub const SKY: RGBColor = RGBColor(86, 180, 233);
 /// Orange-red.
 pub const VERMILION: RGBColor = RGBColor(213, 94, 0);
 /// Orange.

@@ -44,9 +44,6 @@ pub struct Series {
 
 /// Draws `series` over the axes `x` and `y` on `panel`, and leaves `right` pixels free beside them. Returns a label for each
 /// line that has a point, at the height of its last.
-///
-/// # Errors
-/// As the backend's.
 pub fn log_log(
     panel: &Panel<'_>,
     title: &str,

@@ -67,7 +67,7 @@ pub(crate) struct SeriesArgs {
     #[arg(long, value_enum)]
     format: Option<DataFormat>,
     #[command(flatten)]
-    chart: ChartArgs,
+    pub(crate) chart: ChartArgs,
 }
 
 /// The option that draws a chart.
@@ -102,7 +102,7 @@ impl ChartArgs {
 
     /// Draws a chart that is asked for: the chart if it stands in place of the data, `None` if it is in its file or if there is
     /// none.
-    pub(crate) fn chart(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<Option<String>, Failure> {
+    pub(crate) fn drawn(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<Option<String>, Failure> {
         let Some(path) = &self.svg else { return Ok(None) };
         let chart = draw()?;
         // XML has no control characters, and the title may have the name of a file.
@@ -126,23 +126,13 @@ impl SeriesArgs {
         self.format.unwrap_or(DataFormat::Csv)
     }
 
-    /// Whether a chart is asked for.
-    pub(crate) fn has_chart(&self) -> bool {
-        self.chart.is_some()
-    }
-
-    /// As [`ChartArgs::chart`].
-    pub(crate) fn chart(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<Option<String>, Failure> {
-        self.chart.chart(draw)
-    }
-
     /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
     pub(crate) fn answer(
         &self,
         data: impl FnOnce(DataFormat) -> String,
         draw: impl FnOnce() -> Result<String, Failure>,
     ) -> Result<String, Failure> {
-        Ok(self.chart(draw)?.unwrap_or_else(|| data(self.format())))
+        Ok(self.chart.drawn(draw)?.unwrap_or_else(|| data(self.format())))
     }
 
     /// As [`SeriesArgs::answer`], for lines of plain data.

@@ -103,9 +103,6 @@ pub(crate) enum Decider<'a> {
 
 impl Decider<'_> {
     /// Counts the outcomes of the launches with the numbers `range`.
-    ///
-    /// # Errors
-    /// As [`fold`].
     pub(crate) fn count(
         &self,
         space: &Space,

@@ -71,9 +71,6 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
 }
 
 /// The landing with its proven bounds at the tolerance of `stepping`.
-///
-/// # Errors
-/// As [`plan`].
 pub(crate) fn run(stepping: Stepping, want: &Want) -> Result<Answer, Error> {
     let (toss, _) = question(want)?;
     let solver = QuaternionSolver::new(stepping, Formulation::default());

@@ -114,9 +114,6 @@ pub fn trace_points<'a>(
 }
 
 /// The attitudes (BF to LF) of [`trace`], each computed when it is asked for. Without Euler angles they take little more than half the time.
-///
-/// # Errors
-/// As [`trace_points`].
 pub(crate) fn attitudes<'a>(
     solver: &'a dyn Solver,
     toss: &'a Toss,
@@ -169,18 +166,7 @@ pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> 
     enclosed_points(solver, toss, Times::Number(points))?.collect()
 }
 
-/// As [`trace_every`], with proven bounds of the errors at each point.
-///
-/// # Errors
-/// As [`trace_every`] and [`QuaternionSolver::enclose`].
-pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
-    enclosed_points(solver, toss, Times::Every(step))?.collect()
-}
-
 /// As [`trace_points`], with proven bounds of the errors at each point.
-///
-/// # Errors
-/// As [`trace_points`].
 pub fn enclosed_points<'a>(
     solver: &'a QuaternionSolver,
     toss: &'a Toss,

@@ -23,9 +23,6 @@ pub fn report(error: impl fmt::Display) {
 }
 
 /// The same result, except that a reader that has gone away is not an error.
-///
-/// # Errors
-/// As `written`.
 pub fn unless_closed(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),

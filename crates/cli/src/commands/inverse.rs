@@ -61,7 +61,7 @@ impl Args {
         };
         let is_of_a_coin = self.coin.given_body()?.is_some();
         let print = || self.format.print(asked, &rates, || rates.text(is_of_a_coin));
-        Ok(self.chart.chart(|| rates.drawn())?.unwrap_or_else(print))
+        Ok(self.chart.drawn(|| rates.drawn())?.unwrap_or_else(print))
     }
 }
 

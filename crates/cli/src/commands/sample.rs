@@ -97,7 +97,7 @@ impl Args {
         let body = self.space.coin.body()?;
         let mut table = Table::new(input).map_err(wrong)?;
         let columns = columns(table.heading())?;
-        while !writer.is_closed() && !watch.is_over() {
+        while !writer.is_closed && !watch.is_over() {
             let mut chunk = Vec::new();
             // Up to the last launch that has arrived.
             let end = loop {
@@ -128,7 +128,7 @@ impl Args {
         self.space.require_grid_where_points_are(&space, |_| plan == Plan::Grid)?;
         watch.show_beside_rows(Some(points), "launches");
         let (mut launches, mut size) = (space.drawn(plan)?.flatten(), FIRST_CHUNK);
-        while !writer.is_closed() && !watch.is_over() {
+        while !writer.is_closed && !watch.is_over() {
             let began = Instant::now();
             let chunk: Vec<Given> = launches.by_ref().take(size).map(|drawn| given(&drawn)).collect();
             if chunk.is_empty() {
@@ -173,7 +173,7 @@ fn given(drawn: &Drawn) -> Given {
 /// # Errors
 /// That of the first launch that fails, with its number. Those before it are written.
 fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<(), Failure> {
-    let first = writer.rows();
+    let first = writer.rows;
     let one = |(given, index): (&Given, u64)| landed(backend, given, first + index);
     let numbered: Vec<(&Given, u64)> = launches.iter().zip(0..).collect();
     let rows: Vec<Result<Row, Error>> =
@@ -242,23 +242,15 @@ impl Row {
 struct Writer<'a> {
     out: &'a mut (dyn Write + Send),
     format: DataFormat,
+    /// Number of rows that were written.
     rows: u64,
+    /// Whether the reader of standard output has gone, so that no more rows are wanted.
     is_closed: bool,
 }
 
 impl<'a> Writer<'a> {
     fn new(out: &'a mut (dyn Write + Send), format: DataFormat) -> Self {
         Self { out, format, rows: 0, is_closed: false }
-    }
-
-    /// Number of rows that were written.
-    fn rows(&self) -> u64 {
-        self.rows
-    }
-
-    /// Whether the reader of standard output has gone, so that no more rows are wanted.
-    fn is_closed(&self) -> bool {
-        self.is_closed
     }
 
     fn write(&mut self, rows: &[Row]) -> Result<(), Failure> {

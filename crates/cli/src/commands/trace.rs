@@ -65,7 +65,7 @@ impl Args {
         let backend = self.flight.solver.backend_of_outcomes(registry)?;
         let solver = backend.solver();
         let points = self.points(&toss, solver, prover.as_ref())?;
-        let chart = self.series.chart(|| {
+        let chart = self.series.chart.drawn(|| {
             // As many points as the motion needs, whatever number is printed.
             let drawn = trace(solver, &toss, chart::points_to_draw(&toss))?;
             let scheme = solver.stepping().map(|stepping| format!(", {}", stepping.scheme())).unwrap_or_default();
@@ -91,7 +91,7 @@ impl Args {
         prover: Option<&'a QuaternionSolver>,
     ) -> Result<Box<dyn Iterator<Item = Result<Point, Error>> + 'a>, Failure> {
         // Who asks for a chart alone may not care for the number of points.
-        let number = self.points.or(self.series.has_chart().then_some(TRACE_POINTS)).map(Times::Number);
+        let number = self.points.or(self.series.chart.is_some().then_some(TRACE_POINTS)).map(Times::Number);
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
         let times = self.dt.map(Times::Every).or(number).ok_or_else(missing)?;
         let Some(prover) = prover else {

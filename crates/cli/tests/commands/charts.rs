@@ -156,6 +156,10 @@ fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
         ("convergence --space tails --coin us-dime --drop 1 --steps 3", "space tails, Coin &apos;us-dime&apos; (k = "),
         ("errors --space cheated --up-to 9 --replicates 1 --spread 7%", "Error of P(heads), space cheated, spread 7 %"),
         ("limit --coin us-dime --points 3", "long flights from horizontal, Coin &apos;us-dime&apos;"),
+        (
+            "map --rate-x 0:40:3 --rate-y 5 --rate-z 10:20:3 --speed 3:5 --method random --points 64 --solver quaternion --scheme rk4 --step 0.1",
+            "white: no launch is decided",
+        ),
         ("trace --rate 1,2,3 --speed 3 --drop 50cm --points 2", "ω = (1, 2, 3) rad/s, drop 50 cm: the coin"),
     ] {
         let drawn = svg(command);

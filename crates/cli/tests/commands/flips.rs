@@ -3,30 +3,6 @@
 use crate::common::{assert_near, json, run, stderr, stdout};
 
 #[test]
-fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
-    for (drop, number) in [("", 2), ("--drop 1.2", 3)] {
-        let toss = format!("--rate 20,5,3 --tilt 0.4 {drop}");
-        let answer = json(&format!("intervals --speed 3:9 {toss}"), 0);
-        let intervals = answer["heads"].as_array().unwrap();
-        assert!(intervals.len() > number);
-        let outcome = |speed: f64| json(&format!("toss {toss} --speed {speed}"), 0)["outcome"].clone();
-        let mut length = 0.0;
-        for interval in intervals {
-            let [slow, fast] = [0, 1].map(|end| interval[end].as_f64().unwrap());
-            length += fast - slow;
-            assert_eq!((outcome(slow + 1e-9), outcome(fast - 1e-9)), ("heads".into(), "heads".into()));
-            assert!(slow == 3.0 || outcome(slow - 1e-9) == "tails", "{slow}");
-            assert!(fast == 9.0 || outcome(fast + 1e-9) == "tails", "{fast}");
-        }
-        assert_near(&answer["probability"], length / 6.0, 1e-15);
-    }
-    let exact = json("probability --rate-x 20 --rate-y 5 --rate-z 3 --tilt 0.4 --speed 3:9 --method exact-speed", 0);
-    let answer = json("intervals --rate 20,5,3 --tilt 0.4 --speed 3:9", 0);
-    assert_near(&answer["probability"], exact["probability"].as_f64().unwrap(), 1e-13);
-    assert!(stdout(&run("intervals --rate 2,2,0.5 --speed 3:5")).ends_with("share of the range  0.000000000000\n"));
-}
-
-#[test]
 fn an_angle_explains_counts_of_one_hand_and_of_people() {
     // The flips of F. Bartoš et al., arXiv 2310.04153.
     let all = json("inverse --counts 178078/350757", 0);

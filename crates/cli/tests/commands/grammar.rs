@@ -1,7 +1,6 @@
 //! One grammar for all options: each option of each command, as the program itself defines them, is given wrong values of every
 //! kind. The answer is an error with code 2 that names the option, the value and what is valid.
 
-use crate::common::{json, run, stderr, stdout};
 use crate::registry::answer;
 use clap::{Arg, Command};
 use serde_json::Value;
@@ -178,55 +177,4 @@ fn counts_are_whole_numbers_in_a_range_that_is_said() {
     }
     assert!(counts > 20, "{counts}");
     assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
-}
-
-/// The input that answers repeat is the same however a number is written.
-#[test]
-fn counts_fractions_and_coordinates_may_be_written_in_any_of_their_forms() {
-    let answer = |options: &str| json(options, 0).to_string();
-    for (one, other) in [
-        (
-            "probability --space tails --method random --points 1e3",
-            "probability --space tails --method random --points 1000",
-        ),
-        ("limit --points 0.9e1 --seed 1e0", "limit --points 9 --seed 1"),
-        ("convergence --space tails --steps 5e0", "convergence --space tails --steps 5"),
-        ("trace --rate 1,2,3 --time 1 --points 1e1", "trace --rate 1,2,3 --time 1 --points 10"),
-        ("inverse --probability 70%", "inverse --probability 0.7"),
-        (
-            "spread --rate 20,0,5 --speed 3.5 --heads 90% --points 512",
-            "spread --rate 20,0,5 --speed 3.5 --heads 0.9 --points 512",
-        ),
-        (
-            "errors --space tails --up-to 8 --replicates 1 --reference 50%",
-            "errors --space tails --up-to 8 --replicates 1 --reference 0.5",
-        ),
-        ("probability --space tails --accuracy 1%", "probability --space tails --accuracy 0.01"),
-    ] {
-        assert_eq!(answer(one), answer(other), "{one}");
-    }
-    let map = |names: &str| stdout(&run(&format!("map --rate-x 0:9:3 --rate-y 0 --rate-z 0:9:3 --speed 3 {names}")));
-    let turned = stderr(&run("map --turn 38rev/s --psi 60deg --speed 2:3:4 --up speed --spread 1%"));
-    assert!(turned.contains("--turn and --psi fix rate_x: a map of it needs --rate-x"), "{turned}");
-    assert_eq!(map("--across rate-z --up rate-x"), map("--across rate_z --up rate_x"));
-    assert!(map("--across rate-z --up rate-x").starts_with("rate_z,rate_x,probability\n"));
-    let grid = |points: &str| {
-        stdout(&run(&format!("probability --rate-x 0:9:{points} --rate-y 0 --rate-z 1 --speed 3 --method grid")))
-    };
-    assert_eq!(grid("1e1"), grid("10"));
-    let refused = stderr(&run("probability --rate-x 0:9:1 --rate-y 0 --rate-z 1 --speed 3 --method grid"));
-    assert!(refused.contains("rate x [rad/s] = '0:9:1'") && refused.contains("at least 2 grid points"), "{refused}");
-}
-
-/// A reader that takes numbers for f64 would round 2^53 + 1.
-#[test]
-fn seeds_that_no_f64_holds_are_texts_in_json() {
-    for (seed, expected) in [
-        ("9007199254740992", Value::from(1_u64 << 53)),
-        ("9007199254740993", "9007199254740993".into()),
-        ("18446744073709551615", "18446744073709551615".into()),
-    ] {
-        let answer = json(&format!("probability --space tails --method random --points 8 --seed {seed}"), 0);
-        assert_eq!((&answer["seed"], &answer["input"]["seed"]), (&expected, &expected));
-    }
 }

@@ -1,7 +1,6 @@
 //! What helps at the shell: help texts with their examples, completions and manual pages, and the other names of options.
 
-use crate::common::{json, run, stderr, stdout};
-use serde_json::Value;
+use crate::common::{run, stderr, stdout};
 use toss::Registry;
 
 /// The commands in the order in which the help text lists them.
@@ -153,18 +152,6 @@ fn manual_pages_keep_units_and_name_no_page_that_does_not_exist() {
     let named = whole.lines().filter_map(|line| line.strip_prefix("unfair\\-toss\\-")?.strip_suffix("(1)"));
     assert_eq!(named.collect::<Vec<_>>().join(" "), COMMANDS);
     assert!(stderr(&run("man help")).contains("command = 'help' is unknown"));
-}
-
-#[test]
-fn method_is_an_alias_of_scheme() {
-    for command in ["toss --rate 2,5,1 --time 0.4", "trace --rate 2,5,1 --time 0.4 --points 3"] {
-        let by = |option: &str| json(&format!("{command} --solver quaternion {option} rk4"), 0);
-        assert_eq!(by("--scheme"), by("--method"));
-    }
-    let answer = json("toss --rate 2,5,1 --time 0.4 --solver quaternion --tolerance 1e-4", 0);
-    assert_eq!(answer["scheme"], "dop853");
-    assert!(answer["norm_error"].as_f64() > Some(0.0));
-    assert_eq!(json("toss --rate 2,5,1 --time 0.4", 0)["scheme"], Value::Null);
 }
 
 #[test]

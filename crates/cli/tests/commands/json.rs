@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use crate::common::{json, run, stderr, stdout};
 use crate::fields::{Fields, collect, documented};
-use serde_json::Value;
 
 /// Every field that was found is documented with its type, and every documented one was found.
 #[track_caller]
@@ -177,27 +176,6 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
     }
     assert_documented(&every, &documented("Every answer"));
     assert_documented(&inputs, &documented("`input`"));
-}
-
-#[test]
-fn input_is_repeated_as_it_was_given() {
-    let toss = json("toss --rate -0,1,2.5 --speed 3 --solver gamma --method rk4 --threads-are-not-echoed", 2);
-    assert_eq!(toss["error"]["field"], "threads-are-not-echoed");
-    let toss = json("toss --rate -0,1,2.5 --speed 3 --solver gamma --method rk4", 0);
-    let expected = r#"{"command":"toss","rate":[0.0,1.0,2.5],"scheme":"rk4","solver":"gamma","speed":3.0}"#;
-    assert_eq!(toss["input"].to_string(), expected);
-    let space =
-        json("probability --rate-x 0:1 --rate-y x --rate-z 5 --speed 3 --method random --points 9 --threads 2", 0);
-    assert_eq!((&space["input"]["rate_x"], &space["input"]["points"]), (&"0:1".into(), &9.into()));
-    assert_eq!(space["input"]["threads"], Value::Null);
-    let typed =
-        json("toss --turn 38rev/s --psi 1 --speed 2.4m/s --tilt 15deg --cylinder 5g,12mm,0.1mm", 0)["input"].clone();
-    let expected = r#"{"command":"toss","cylinder":["5g","12mm","0.1mm"],"psi":1.0,"solver":"exact","speed":"2.4m/s","tilt":"15deg","turn":"38rev/s"}"#;
-    assert_eq!(typed.to_string(), expected);
-    let typed =
-        json("probability --turn 38rev/s --psi 60deg --speed 2.4m/s --spread 5% --accuracy 1e-2", 0)["input"].clone();
-    let expected = r#"{"accuracy":0.01,"command":"probability","psi":"60deg","solver":"exact","speed":"2.4m/s","spread":0.05,"turn":"38rev/s"}"#;
-    assert_eq!(typed.to_string(), expected);
 }
 
 #[test]

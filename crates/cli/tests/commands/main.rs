@@ -7,7 +7,6 @@ mod fields;
 #[path = "../common/lines.rs"]
 mod lines;
 
-mod bodies;
 mod charts;
 mod flips;
 mod grammar;

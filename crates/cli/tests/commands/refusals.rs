@@ -21,68 +21,6 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
 }
 
 #[test]
-fn options_without_effect_with_the_solver_are_refused_and_say_whom_they_are_for() {
-    let integrators = "it is for gamma, euler or quaternion";
-    for command in [
-        "toss --rate 1,1,1 --time 1",
-        "trace --rate 1,1,1 --time 1 --points 3",
-        "probability --space tails --method grid",
-        "convergence --space tails",
-        "limit",
-        "map --rate-x 0:9:3 --rate-y 0 --rate-z 1:9:3 --speed 3:5",
-    ] {
-        for (option, words) in [
-            ("--scheme dop853", ["scheme = 'dop853' has no effect with solver 'exact'", integrators]),
-            ("--tolerance 1e-9", ["tolerance = '1e-9' has no effect with solver 'exact'", integrators]),
-            ("--step 1e-3", ["step [s] = '0.001' has no effect with solver 'exact'", integrators]),
-            (
-                "--formulation vertical",
-                ["formulation = 'vertical' has no effect with solver 'exact'", "it is for gamma or euler"],
-            ),
-        ] {
-            assert_refused(&[(&format!("{command} {option}"), words)]);
-        }
-    }
-    let quaternion = "toss --rate 1,1,1 --time 1 --solver quaternion --formulation";
-    for formulation in ["momentum", "raw"] {
-        assert_eq!(run(&format!("{quaternion} {formulation}")).status.code(), Some(0), "{formulation}");
-    }
-}
-
-#[test]
-fn what_proves_nothing_refuses_to_prove_and_says_why() {
-    for command in [
-        "toss --rate 1,1,1 --time 1",
-        "trace --rate 1,1,1 --time 1 --points 3",
-        "probability --space tails --method grid",
-    ] {
-        for (options, words) in [
-            ("", ["--prove has no effect with --solver exact", "it is for quaternion"]),
-            ("--solver gamma", ["gamma proves nothing", "no bound of its own error; quaternion has one"]),
-            ("--solver euler", ["euler proves nothing", "no bound of its own error; quaternion has one"]),
-            ("--solver quaternion --formulation raw", ["proves nothing", "division by the norm"]),
-            ("--solver quaternion --scheme dop853", ["proves nothing", "only the scheme taylor"]),
-            ("--solver quaternion --scheme rk4 --step 1e-3", ["proves nothing", "only the scheme taylor"]),
-        ] {
-            assert_refused(&[(&format!("{command} {options} --prove"), words)]);
-        }
-    }
-}
-
-#[test]
-fn points_have_an_effect_where_they_are_taken() {
-    let free = "--rate-y x --rate-z 1 --speed 3:5";
-    for (options, points) in [("--method sobol --points 64 --seed 2", 64), ("--method exact-speed --points 64", 64)] {
-        assert_eq!(json(&format!("probability --rate-x 0:9 {free} {options}"), 0)["points"], points);
-    }
-    assert_eq!(
-        json("probability --space tails --method random --points 9", 0)["points"],
-        9,
-        "names have points for grids"
-    );
-}
-
-#[test]
 fn scenes_and_spaces_are_refused_by_key_and_line() {
     let folder = tempfile::tempdir().unwrap();
     let launch = "launch = { rate = [1, 1, 2], speed = 3 }";

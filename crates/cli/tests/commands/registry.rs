@@ -62,17 +62,3 @@ fn the_planner_takes_a_solver_from_elsewhere() {
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("mine, dopri5, tolerance"), "{out}");
 }
-
-/// "error none" of an integrator would be read as no error.
-#[test]
-fn a_plan_of_an_outcome_says_whether_it_is_proven_or_where_it_is_undecided() {
-    const OUTCOME: &str = "plan --rate 20,5,3 --speed 3 --want outcome --accuracy 1e-9";
-    for (solver, words) in [
-        ("", "expected  proven "),
-        (" --solver quaternion", "undecided where |cos θ| ≤ 1e-9 "),
-        (" --solver gamma --scheme dop853", "undecided where |cos θ| ≤ 1e-9 "),
-    ] {
-        let (_, out, err) = answer(Registry::standard(), format!("{OUTCOME}{solver}").split(' '));
-        assert!(out.contains(words) && !out.contains("none"), "{out}{err}");
-    }
-}

@@ -44,7 +44,7 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 fn as_many_rows_land_heads_as_an_estimate_counts() {
     let space = "--space paper-fig4";
     for (options, counted) in [
-        ("--points 5000 --seed 3", "--method random --points 5000 --seed 3"),
+        ("--points 5000 --seed 3 --drop 1m", "--method random --points 5000 --seed 3 --drop 1m"),
         ("--points 20000 --method random", "--method random --points 20000"),
     ] {
         let rows = rows(&stdout(&run(&format!("sample {space} {options}"))));

@@ -6,8 +6,6 @@ use std::time::{Duration, Instant};
 
 use crate::common::{json, run, stderr, stdout};
 
-const SPACE: &str = "--rate-x 1:60:30 --rate-y 4 --rate-z 7 --speed 3:5:20";
-
 #[test]
 fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
@@ -115,80 +113,5 @@ fn an_interrupted_command_answers_what_it_knows() {
             let answer: serde_json::Value = serde_json::from_str(&text).unwrap();
             assert!(answer["ended"] == "interrupted" && !answer["points"].as_array().unwrap().is_empty(), "{answer}");
         }
-    }
-}
-
-#[test]
-fn every_command_over_a_space_takes_a_drop() {
-    // The same flights: with a drop of h = 1 m the time is (v0 + √(v0² + 2 g h))/g.
-    let heads = |options: &str| json(&format!("probability {SPACE} --method grid {options}"), 0)["heads"].as_u64();
-    let sampled = stdout(&run(&format!("sample {SPACE} --method grid --drop 1m")));
-    let rows: Vec<Vec<&str>> = sampled.lines().skip(1).map(|line| line.split(',').collect()).collect();
-    assert_eq!(rows.len(), 600);
-    for row in &rows {
-        let [speed, time] = [row[3], row[8]].map(|cell| cell.parse::<f64>().unwrap());
-        assert!((time - (speed + (speed * speed + 2.0 * 9.81).sqrt()) / 9.81).abs() < 1e-15, "{row:?}");
-        assert_eq!((row[6], row[11]), ("1.0", "true"));
-    }
-    // Without a drop exact-speed would be chosen.
-    assert_ne!(json("probability --space tails --drop 1 --accuracy 1e-2", 0)["method"], "exact-speed");
-    let counted = rows.iter().filter(|row| row[10] == "heads").count() as u64;
-    assert_eq!(heads("--drop 1m"), Some(counted));
-    assert_ne!(heads("--drop 0.5m"), Some(counted));
-    assert_eq!(heads("--drop 1 --solver quaternion"), Some(counted));
-    for command in [
-        &format!("convergence {SPACE} --steps 3 --drop 0.2"),
-        "probability --rate-x 1:60 --rate-y 4 --rate-z 7 --speed 3:5 --method sobol --points 64 --drop -0.2",
-        "probability --space paper-fig4 --drop 1m --accuracy 1e-2",
-        "map --rate-x 1:9:2 --rate-y 4 --rate-z 7:9:2 --speed 3:5 --method random --points 64 --drop 1",
-    ] {
-        let output = run(command);
-        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
-    }
-}
-
-#[test]
-fn a_hand_spreads_what_has_a_single_value() {
-    let by_spread =
-        "probability --rate-x 20 --rate-y x --rate-z 0 --speed 3:4 --spread 5% --method random --points 999";
-    let by_axes = "probability --rate-x normal:20:1 --rate-y x --rate-z 0 --speed 3:4 --method random --points 999";
-    assert_eq!(json(by_spread, 0)["heads"], json(by_axes, 0)["heads"]);
-}
-
-/// A step of 0.1 is too large for the scheme to decide any launch.
-const UNDECIDED: &str = "--solver quaternion --scheme rk4 --step 0.1";
-
-#[test]
-fn what_is_undecided_is_no_share_of_tails() {
-    let space =
-        format!("--rate-x 0:40:3 --rate-y 5 --rate-z 10:20:3 --speed 3:5 --method random --points 64 {UNDECIDED}");
-    let map = json(&format!("map {space}"), 0);
-    for row in 0..3 {
-        for column in 0..3 {
-            assert!(map["probability"][row][column].is_null() && map["undecided"][row][column] == 64, "{map}");
-        }
-    }
-    let csv = stdout(&run(&format!("map {space}")));
-    assert!(csv.starts_with("rate_x,rate_z,probability,undecided\n0,10,,64\n"), "{csv}");
-    assert!(stdout(&run(&format!("map {space} --svg -"))).contains("white: no launch is decided"));
-    let found = json(&format!("probability {space}").replace(":3 ", " "), 0);
-    assert!(found["probability"].is_null() && found["interval"] == serde_json::json!([0.0, 1.0]), "{found}");
-    let grid = space.replace(":40:3", ":40:9").replace("3:5 ", "3:5:4 ").replace("--method random --points 64", "");
-    let series = stdout(&run(&format!("convergence {grid} --steps 2")));
-    assert_eq!(series.lines().last(), Some("108,,,0.0,1.0,108,108"), "{series}");
-    let limit = json(&format!("limit --points 9 {UNDECIDED}").replace("0.1", "0.01"), 0);
-    assert!(limit["series"][0]["share"].is_null() && limit["series"][0]["undecided"] == 9, "{limit}");
-}
-
-#[test]
-fn a_search_for_a_spread_next_to_1_ends_and_says_how_far_it_came() {
-    for heads in ["0.9999999999", "99.9999999%"] {
-        let command = format!("spread --rate 1,1,2.5 --speed 3 --heads {heads}");
-        let found = json(&command, 0);
-        assert!(found["answer"] == "at_least" && found["looks"].as_u64() <= Some(256), "{found}");
-        assert!(found["at_least"].as_f64() > Some(0.999_999), "{found}");
-        let text = stdout(&run(&command));
-        assert!(text.starts_with("spread       at least ") && text.contains("the search ended there"), "{text}");
-        assert!(text.contains("note         the interval reaches lower"), "{text}");
     }
 }

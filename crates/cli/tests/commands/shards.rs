@@ -132,29 +132,6 @@ fn gaps_overlaps_and_parts_of_other_plans_are_refused_with_the_name_of_the_file(
     assert!(json("merge", 2)["error"]["message"].as_str().unwrap().contains("PART"));
 }
 
-#[test]
-fn options_of_parts_that_do_not_fit_are_refused() {
-    let random = "probability --space paper-fig4 --method random";
-    for (options, words) in [
-        (" --shard 0/3 --out -", "I from 1 to N"),
-        (" --shard 4/3 --out -", "I from 1 to N"),
-        (" --shard 1 --out -", "I from 1 to N"),
-        (" --shard 1/0 --out -", "I from 1 to N"),
-        (" --shard 1/3", "--out"),
-        (" --out -", "--shard"),
-        (" --shard 1/3 --out - --solver gamma", "exact motion"),
-        (" --shard 1/3 --out - --format json", "no effect"),
-    ] {
-        let output = run(&format!("{random}{options}"));
-        assert_eq!(output.status.code(), Some(2), "{options}");
-        assert!(stderr(&output).contains(words), "{options}: {}", stderr(&output));
-    }
-    let enclosed = run("probability --space tails --method enclosure --shard 1/3 --out -");
-    assert!(enclosed.status.code() == Some(2) && stderr(&enclosed).contains("none to number"), "{}", stderr(&enclosed));
-    let output = run("probability --space paper-fig4 --shard 1/3 --out -");
-    assert!(output.status.code() == Some(2) && stderr(&output).contains("--method"), "{}", stderr(&output));
-}
-
 /// The hundredth part of 10^10 launches is within reach, and its launches are those of the whole.
 #[test]
 fn a_small_part_of_very_many_launches_is_quick() {

@@ -148,7 +148,7 @@ fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
         let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
         assert!(error <= certificate.error_bound(), "{error:e}");
     }
-    assert_eq!(trace_enclosed_every(&solver, &toss, 0.05).unwrap().len(), 31);
+    assert_eq!(enclosed_points(&solver, &toss, Times::Every(0.05)).unwrap().count(), 31);
     let book = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch: toss.launch };
     let motion = ExactMotion::new(&book);
     for EnclosedPoint { point, certificate } in &trace_enclosed(&solver, &book, 31).unwrap() {

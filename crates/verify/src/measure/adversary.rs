@@ -16,7 +16,9 @@ use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Coin, CoinMotion, CoinToss, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{
+    Coin, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3,
+};
 
 use super::case;
 use super::context::Context;
@@ -110,17 +112,17 @@ const SLOW_EVERY: usize = 40;
 
 /// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
 pub(super) fn launch(seed: u64, index: usize) -> Toss {
-    drawn(&mut stream(seed, index as u64), index).expect("every launch is valid").into()
+    drawn(&mut stream(seed, index as u64), index).expect("every launch is valid")
 }
 
-fn drawn(rng: &mut ChaCha8Rng, index: usize) -> Result<CoinToss, InputError> {
+fn drawn(rng: &mut ChaCha8Rng, index: usize) -> Result<Toss, InputError> {
     let k = inertia_ratio(rng);
     let coin = Coin::from_moments(1.0, k)?;
     let mut rate = rate(rng, k);
     if is_slow(index) && rate.amax() > 0.0 {
         rate = rate / rate.amax() * decades(rng, -9.0, -3.0);
     }
-    let motion = CoinMotion::new(&tossed(coin, rate, TimeOfFlight::Given(0.0), 0.0)?);
+    let motion = CoinMotion::new(&CoinToss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? });
     let tilt = tilt(rng, motion.cone_angle());
     let time = time(rng, &motion, &rate);
     // The motion depends on the ratio of the moments alone, whatever their size (kg m²).

@@ -5,7 +5,7 @@
 use dynamics::{Phases, Toss};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Attitude, Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
+use toss::{Attitude, Coin, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
 
 use super::subject::{Subject, by_kind};
 use super::tosses::{decades, one, stream};
@@ -45,7 +45,7 @@ pub(crate) fn may_be_declined(toss: &Toss) -> bool {
 }
 
 /// Launches whose numbers anybody can follow by hand.
-fn simple() -> Result<Vec<CoinToss>, InputError> {
+fn simple() -> Result<Vec<Toss>, InputError> {
     let attitudes = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5]];
     let rates = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 2.0], [1.0, 2.0, 3.0]];
     let mut all = Vec::new();
@@ -55,7 +55,7 @@ fn simple() -> Result<Vec<CoinToss>, InputError> {
                 for time in [0.5, 1.0] {
                     let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?;
                     let launch = launch.with_attitude(Attitude::from_components(attitude)?);
-                    all.push(CoinToss { coin: Coin::from_moments(i1, i3)?, launch });
+                    all.push(Toss::new(Coin::from_moments(i1, i3)?, launch));
                 }
             }
         }
@@ -63,7 +63,7 @@ fn simple() -> Result<Vec<CoinToss>, InputError> {
     Ok(all)
 }
 
-fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
+fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<Toss, InputError> {
     let k = match index % 5 {
         0 => one(rng, [0.0, 0.5, 1.0, 1.5, 2.0]),
         _ => rng.random_range(0.01..2.0),
@@ -79,7 +79,7 @@ fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
         _ => decades(rng, -2.0, 2.5),
     };
     let launch = Launch::new(rate, TimeOfFlight::Given(phase / turn_rate))?;
-    Ok(CoinToss { coin: Coin::from_moments(i1, k * i1)?, launch: launch.with_attitude(attitude(rng, index)?) })
+    Ok(Toss::new(Coin::from_moments(i1, k * i1)?, launch.with_attitude(attitude(rng, index)?)))
 }
 
 /// One in eight is level, one level and turned about the vertical, one tilted about x, the others are any; half of all are

@@ -129,26 +129,18 @@ impl Set {
         families.iter().map(set).collect()
     }
 
-    /// The tosses of coins that `tosses` makes, on which alone the deviation is taken.
-    pub(super) fn of_coins(
-        subject: &str,
-        tosses: impl Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
-        deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
-    ) -> Self {
-        let of_coin = move |toss: &Toss, reference: &Reference| {
-            deviation(&toss.of_coin("the measure", "it is taken on coins alone")?, reference)
-        };
-        Self { of_coins: true, ..Self::new(subject, tosses, of_coin) }
+    /// The same set, whose deviation is taken on coins alone.
+    pub(super) fn of_coins(self) -> Self {
+        Self { of_coins: true, ..self }
     }
 
     /// The tosses of coins that `tosses` makes of a [number](tries).
     pub(super) fn of_tries(
         subject: &str,
-        tosses: impl Fn(u64) -> anyhow::Result<Vec<CoinToss>> + Sync + 'static,
-        deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
+        tosses: impl Fn(u64) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
+        deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
-        let all = move |context: &Context| Ok(tosses(tries(context.effort))?.into_iter().map(Toss::from).collect());
-        Self::of_coins(subject, all, deviation)
+        Self::new(subject, move |context: &Context| tosses(tries(context.effort)), deviation).of_coins()
     }
 
     fn measured(&self, fold: Fold, tosses: &[Toss], context: &Context) -> Measurement {
@@ -159,6 +151,11 @@ impl Set {
         let trials: Vec<Trial<'_>> = tosses.par_iter().filter_map(tried).collect();
         fold.of(&self.subject, &trials).of_the_library().beside_unjudged(tosses.len() - trials.len())
     }
+}
+
+/// The toss of a coin, for a deviation that is taken on coins alone.
+pub(super) fn coin(toss: &Toss) -> Result<CoinToss, SolveError> {
+    toss.of_coin("the measure", "it is taken on coins alone")
 }
 
 /// What `measure` finds, or an error if it panics, so that a fault of the library is a row that fails and not the end of

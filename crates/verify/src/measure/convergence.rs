@@ -15,8 +15,7 @@ use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use serde::Serialize;
 use toss::{
-    Coin, CoinMotion, CoinToss, Formulation, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State,
-    Stepping,
+    Coin, CoinMotion, Formulation, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State, Stepping, Toss,
 };
 
 use crate::measure::reference::Reference;
@@ -48,7 +47,8 @@ pub struct Convergence {
 /// Measures every integrator of `registry` with each scheme that takes fixed steps and has an order.
 pub(crate) fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
-    let flights: Vec<(CoinToss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
+    let flights = tosses.into_iter().map(|toss| Ok((toss, Reference::of(&toss)?)));
+    let flights: Vec<(Toss, Reference)> = flights.collect::<anyhow::Result<_>>()?;
     let integrators = registry.iter().filter(|entry| entry.integrates());
     let subjects: Vec<(&SolverEntry, Scheme, u32)> = integrators
         .flat_map(|entry| {
@@ -62,18 +62,18 @@ pub(crate) fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Conver
 
 /// Flights on which the cone of the normal encloses the vertical and keeps a distance from it. There the vertical frame
 /// is regular, and all three Euler angles vary.
-fn regular_flights() -> anyhow::Result<Vec<CoinToss>> {
+fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     const CLEARANCE: f64 = 0.8;
     // With this gravity and a speed of 1 m/s, 2 v0/g is TIME.
     let gravity = (2.0 / TIME).to_string();
     let axes = [(RateX, "-3:3"), (RateY, "-3:3"), (RateZ, "0:3"), (Speed, "1"), (Gravity, &gravity), (Tilt, "1.2:1.4")];
     let space = Space::parse(Coin::DISC, &axes)?;
     let mut tosses = Vec::new();
-    for toss in random_flights(&space, 1, 10_000)? {
+    for toss in random_flights(&space, 1, 10_000)?.iter().filter_map(Toss::coin) {
         let motion = CoinMotion::new(&toss);
         let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
         if cone - axis > CLEARANCE && cone + axis < PI - CLEARANCE {
-            tosses.push(toss);
+            tosses.push(toss.into());
         }
     }
     tosses.truncate(FLIGHTS);
@@ -89,12 +89,7 @@ fn window(scheme: Scheme) -> Range<f64> {
 }
 
 impl Convergence {
-    fn new(
-        entry: &SolverEntry,
-        scheme: Scheme,
-        order: u32,
-        flights: &[(CoinToss, Reference)],
-    ) -> Result<Self, InputError> {
+    fn new(entry: &SolverEntry, scheme: Scheme, order: u32, flights: &[(Toss, Reference)]) -> Result<Self, InputError> {
         let offered = entry.formulations().contains(&Formulation::VERTICAL);
         let formulation = if offered { Formulation::VERTICAL } else { Formulation::default() };
         let mut points = Vec::new();
@@ -121,9 +116,9 @@ impl Convergence {
 }
 
 /// The sum over `flights` of the errors of the whole state: attitude (rad), body rate (relative) and quaternion norm.
-pub(crate) fn error(solver: &dyn Solver, flights: &[(CoinToss, Reference)]) -> Result<f64, SolveError> {
-    let of_one = |(toss, reference): &(CoinToss, Reference)| -> Result<f64, SolveError> {
-        let Landing { state: State { attitude, rate }, norm_error, .. } = solver.land(&(*toss).into())?;
+pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
+    let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
+        let Landing { state: State { attitude, rate }, norm_error, .. } = solver.land(toss)?;
         Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + norm_error)
     };
     flights.iter().map(of_one).sum()

@@ -8,7 +8,7 @@
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Coin, CoinToss, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{Coin, Formulation, InputError, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
 use super::families::{FAMILIES, flown_for};
@@ -50,7 +50,7 @@ pub(super) fn flights(entry: &SolverEntry, scheme: Scheme, effort: Effort) -> Re
         let toss = toss(&mut rng, phase)?;
         Some(settings.subject(entry, toss.launch.turn_rate()).map(|by| Flight { toss, by }))
     };
-    let coins = (0..coins).filter_map(|index| flight(0, index, &|rng, phase| Some(coin(rng, phase).into())));
+    let coins = (0..coins).filter_map(|index| flight(0, index, &|rng, phase| Some(coin(rng, phase))));
     let of_bodies = (0..bodies).flat_map(|index| (1..).zip(&FAMILIES).map(move |(kind, family)| (kind, family, index)));
     // A family may have no such body.
     let bodies =
@@ -104,7 +104,7 @@ impl Settings {
 }
 
 /// A coin that turns by about `phase` (rad).
-fn coin(rng: &mut ChaCha8Rng, phase: f64) -> CoinToss {
+fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Toss {
     let sign = one(rng, [-1.0, 1.0]);
     let k = match rng.random_range(0..6) {
         0 => 0.0,
@@ -135,7 +135,7 @@ fn coin(rng: &mut ChaCha8Rng, phase: f64) -> CoinToss {
 }
 
 /// A coin of inertia ratio `k` that turns by about `phase` (rad), level or tilted.
-fn of_ratio(rng: &mut ChaCha8Rng, k: f64, rate: Vector3<f64>, phase: f64) -> CoinToss {
+fn of_ratio(rng: &mut ChaCha8Rng, k: f64, rate: Vector3<f64>, phase: f64) -> Toss {
     let (tilt, flight) = (level_or_tilted(rng, 3.0), TimeOfFlight::Given(phase / rate.norm()));
     let coin = Coin::from_moments(1.0, k);
     coin.and_then(|coin| tossed(coin, rate, flight, tilt)).expect("k is from 0 to 2, and the numbers are finite")
@@ -151,7 +151,7 @@ pub(super) fn planned_body(index: u64) -> (ChaCha8Rng, Option<Toss>) {
 }
 
 /// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad.
-pub(super) fn planned(index: u64) -> (ChaCha8Rng, CoinToss) {
+pub(super) fn planned(index: u64) -> (ChaCha8Rng, Toss) {
     let mut rng = stream(100, index);
     if rng.random() {
         let phase = decades(&mut rng, -1.0, 2.5);

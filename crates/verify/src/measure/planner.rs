@@ -70,12 +70,12 @@ fn unless_refused<T>(found: Result<T, Error>) -> Result<Option<T>, Error> {
 }
 
 fn solve(TossScene { kind, scene, toss }: &TossScene) -> anyhow::Result<Planned> {
-    let input = input(scene, &case::text(&(*toss).into()));
+    let input = input(scene, &case::text(toss));
     let planned = |errors| Planned { kind, errors, input };
     let Some(plan) = unless_refused(scene.plan())? else { return Ok(planned(None)) };
     let (choice, solution) = (plan.choice, scene.solve()?);
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
-    let error = Truth::new(&(*toss).into())?.error(scene, &solution.answer)?;
+    let error = Truth::new(toss)?.error(scene, &solution.answer)?;
     let expected = choice.expected_error;
     let is_far_below = expected > 30.0 * error.max(ROUNDING);
     let error_of_family =
@@ -114,14 +114,14 @@ fn solve_space(index: u64) -> anyhow::Result<Planned> {
 }
 
 /// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one.
-fn largest_of_neighbours(choice: &Choice, scene: &Scene, toss: &CoinToss) -> anyhow::Result<Option<f64>> {
+fn largest_of_neighbours(choice: &Choice, scene: &Scene, toss: &Toss) -> anyhow::Result<Option<f64>> {
     const NEIGHBOURS: u64 = 8;
     let mut largest = 0.0_f64;
     for index in 0..NEIGHBOURS {
         let toss = neighbour(toss, SEED, index)?;
         let near = Scene { want: scene.want.of(toss), ..scene.clone() };
         let Ok(answer) = choice.run(&near) else { return Ok(None) };
-        largest = largest.max(Truth::new(&toss.into())?.error(&near, &answer)?);
+        largest = largest.max(Truth::new(&toss)?.error(&near, &answer)?);
     }
     Ok(Some(largest))
 }
@@ -130,13 +130,13 @@ struct TossScene {
     /// Its kind: what is wanted, or `integrator` if the scene asks for one.
     kind: &'static str,
     scene: Scene,
-    toss: CoinToss,
+    toss: Toss,
 }
 
 /// A random toss. The coin is from the catalogue or any other; the rates are up to 60 rad/s or, in a third of the
 /// tosses, up to a limit between 0.1 and 1000 rad/s, some without spin and some with little wobble. Half of the
 /// launches start horizontal. One in six lands at another height, one in six has a given time of flight.
-fn random_toss(rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
+fn random_toss(rng: &mut ChaCha8Rng) -> Result<Toss, InputError> {
     let coin = match rng.random_range(0..3) {
         0 => CATALOGUE[rng.random_range(0..CATALOGUE.len())].coin()?,
         1 => Coin::from_moments(1.0, rng.random_range(1.9..2.0))?,
@@ -161,12 +161,12 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
 
 /// A toss that differs from `toss` by up to 1 % in each rate and in time. Its errors are of the same size on average,
 /// but not the same.
-fn neighbour(toss: &CoinToss, seed: u64, index: u64) -> Result<CoinToss, InputError> {
+fn neighbour(toss: &Toss, seed: u64, index: u64) -> Result<Toss, InputError> {
     let mut rng = stream(seed, index);
     let launch = toss.launch;
     let rate = launch.rate().map(|part| part * rng.random_range(0.99..1.01));
     let time = TimeOfFlight::Given(launch.flight_time() * rng.random_range(0.99..1.01));
-    Ok(CoinToss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..*toss })
+    Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..*toss })
 }
 
 /// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
@@ -180,10 +180,10 @@ fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     let kind = kinds[rng.random_range(0..kinds.len())];
     let wanted = if kind == "integrator" { kinds[rng.random_range(0..9)] } else { kind };
     let want = match wanted {
-        "outcome" => Want::Outcome(toss.into()),
-        "tilt" => Want::Tilt(toss.into()),
-        "attitude" => Want::Attitude(toss.into()),
-        _ => Want::Trace { toss: toss.into(), points: rng.random_range(2..8) },
+        "outcome" => Want::Outcome(toss),
+        "tilt" => Want::Tilt(toss),
+        "attitude" => Want::Attitude(toss),
+        _ => Want::Trace { toss, points: rng.random_range(2..8) },
     };
     let scene = if kind == "integrator" {
         let entries: Vec<_> = Registry::standard().entries().iter().filter(|entry| entry.integrates()).collect();
@@ -297,7 +297,7 @@ fn share_by_intervals(space: &Space) -> Result<f64, Error> {
     let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
     let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
     let coin = space.coin().ok_or(NO_COIN)?;
-    let toss = tossed(coin, rate, time, value(Coordinate::Tilt))?;
+    let toss = CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
     let intervals = level_speeds_of_heads(&toss, slowest)?;
     let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
     Ok(length / (fastest - slowest))

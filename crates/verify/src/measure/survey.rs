@@ -9,7 +9,7 @@ use dynamics::Toss;
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
-use toss::{Coin, CoinToss, Landing, SolveError};
+use toss::{Coin, Landing, SolveError};
 
 use crate::measure::context::Context;
 use crate::measure::exact_landings::ExactLandings;
@@ -81,11 +81,11 @@ impl Survey {
 pub(super) fn random_launches(launches: u64) -> anyhow::Result<Vec<Toss>> {
     let axes = [(RateX, "-60:60"), (RateY, "-60:60"), (RateZ, "-60:60"), (Speed, "3:5")];
     let space = Space::parse(Coin::PAPER, &axes)?;
-    let vary = |(turn, drawn): (u64, CoinToss)| {
+    let vary = |(turn, drawn): (u64, Toss)| {
         let tilt = if turn % 4 >= 2 { PI * evenly(turn, GOLDEN) } else { 0.0 };
         let slower = if turn % 25 == 24 { 10f64.powf(-10.0 + 5.0 * evenly(turn, SQRT_3)) } else { 1.0 };
         let flight = throw(drawn.launch.time_of_flight(), turn);
-        Ok(tossed(coin(turn)?, drawn.launch.rate() * slower, flight, tilt)?.into())
+        Ok(tossed(coin(turn)?, drawn.launch.rate() * slower, flight, tilt)?)
     };
     (0..).zip(random_flights(&space, SEED, launches)?).map(vary).collect()
 }

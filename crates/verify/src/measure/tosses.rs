@@ -12,7 +12,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use sampling::Coordinate::{self, Drop, Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{AxisOrTie, Distribution, Space};
-use toss::{Attitude, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
+use toss::{Attitude, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::effort::Effort;
 
@@ -77,8 +77,8 @@ pub(super) fn tossed(
     rate: impl Into<Vector3<f64>>,
     flight: TimeOfFlight,
     tilt: f64,
-) -> Result<CoinToss, InputError> {
-    Ok(CoinToss { coin, launch: Launch::new(rate, flight)?.with_tilt(tilt)? })
+) -> Result<Toss, InputError> {
+    Ok(Toss::new(coin, Launch::new(rate, flight)?.with_tilt(tilt)?))
 }
 
 /// Level half of the time, otherwise tilted by up to `most` (rad).
@@ -87,12 +87,12 @@ pub(super) fn level_or_tilted(rng: &mut ChaCha8Rng, most: f64) -> f64 {
 }
 
 /// The first `number` independent launches of `space`, whose axes are ranges or single values.
-pub(super) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Vec<CoinToss>, InputError> {
+pub(super) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Vec<Toss>, InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..number).map(|_| flight(space, &mut rng)).collect()
 }
 
-fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
+fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<Toss, InputError> {
     let mut values = [0.0; Coordinate::COUNT];
     for of in Coordinate::ALL {
         if let Some(AxisOrTie::Axis(axis)) = space.axis_or_tie(of) {
@@ -114,7 +114,7 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
     let launch =
         Launch::new(rate, TimeOfFlight::thrown(value(Speed), value(Gravity), space.drop().map(|_| value(Drop))))?;
     let launch = if value(Tilt) == 0.0 { launch } else { launch.with_tilt(value(Tilt))? };
-    Ok(CoinToss { coin: space.coin().ok_or(dynamics::coin::NO_COIN)?, launch })
+    Ok(Toss::new(space.coin().ok_or(dynamics::coin::NO_COIN)?, launch))
 }
 
 /// The number of tosses from which a check derives the sizes of its sets.
@@ -124,12 +124,12 @@ pub(super) fn tries(effort: Effort) -> u64 {
 
 /// `number` random tosses, of five coins in turn, every second one tilted, and [thrown in every form](throw), whose
 /// rates and times of up to 1 s give phases of up to about `phase` (rad).
-pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<CoinToss>> {
+pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Toss>> {
     let fastest = format!("{0:?}:{1:?}", -phase / 2.0, phase / 2.0);
     let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
     let space = Space::parse(Coin::PAPER, &axes)?;
     let coins = [0.5, 1.0, 1.98, 2.0, 0.0].map(|k| Coin::from_moments(5e-7, k * 5e-7));
-    let vary = |(index, toss): (usize, CoinToss)| {
+    let vary = |(index, toss): (usize, Toss)| {
         let tilt = if index % 2 == 0 { 0.0 } else { 2.0 * toss.launch.attitude().components()[1].asin() };
         let flight = throw(toss.launch.time_of_flight(), index as u64);
         Ok(tossed(coins[index / 5 % 5].clone()?, toss.launch.rate(), flight, tilt)?)
@@ -139,7 +139,7 @@ pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<C
 
 /// Tosses at the corners of the model: pure spin, no spin, spheres, rods, discs, slow and subnormal rates, each
 /// combined with several tilts and with short and long times.
-pub(super) fn corners() -> anyhow::Result<Vec<CoinToss>> {
+pub(super) fn corners() -> anyhow::Result<Vec<Toss>> {
     let rates = [
         [0.0, 0.0, 0.0],
         [0.0, 0.0, 7.0],
@@ -169,10 +169,10 @@ pub(super) fn corners() -> anyhow::Result<Vec<CoinToss>> {
 /// Tosses that land within 3 ulp of the speed at which the outcome changes. Of each three, one is a random launch, one
 /// is horizontal with ψ within 3 ulp of 45°, where cos θ touches 0 at half a turn, and one is tilted so that n only
 /// touches the horizontal plane. `turns` says how many turns the phase of each has before the change.
-pub(super) fn adversarial(number: u64, turns: fn(usize) -> f64) -> anyhow::Result<Vec<CoinToss>> {
+pub(super) fn adversarial(number: u64, turns: fn(usize) -> f64) -> anyhow::Result<Vec<Toss>> {
     const GRAVITIES: [f64; 4] = [9.81, 1.62, 9.80665, 24.79];
     let mut tosses = Vec::new();
-    for (index, toss) in random(number, 100.0, 77)?.into_iter().enumerate() {
+    for (index, toss) in random(number, 100.0, 77)?.iter().filter_map(Toss::coin).enumerate() {
         let rate = toss.launch.rate();
         let (rate, attitude) = match index % 3 {
             // ψ = 45° where Ω = k ωz, with Ω = √(ωx² + ωy²).
@@ -198,7 +198,7 @@ pub(super) fn adversarial(number: u64, turns: fn(usize) -> f64) -> anyhow::Resul
             let (time, gravity) = (phase / motion.precession_rate(), GRAVITIES[index % GRAVITIES.len()]);
             let speed = ulps(0.5 * gravity * time, index);
             if speed.is_finite() && speed >= 0.0 {
-                tosses.push(toss(caught(speed, gravity, time, index))?);
+                tosses.push(toss(caught(speed, gravity, time, index))?.into());
             }
         }
     }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use toss::{Body, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Toss};
+use toss::{Body, Coin, CoinMotion, InputError, Launch, TimeOfFlight, Toss};
 
 use crate::measure::tosses::tossed;
 
@@ -78,7 +78,7 @@ pub const HAZARDS: &[Hazard] = &[
         name: "a large phase",
         distance: "1/phase at landing (1/rad)",
         toss: |distance| {
-            let rate = CoinMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?).precession_rate();
+            let rate = motion(&regular(1.0)?).precession_rate();
             regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
         },
         // 1e-5 is left out, because the longest flight of F8 is nearly it, and those between 1e-6 and 1e-16, where an
@@ -90,9 +90,9 @@ pub const HAZARDS: &[Hazard] = &[
         name: "cos θ = 0: landing on edge",
         distance: "time left to the flip, in times of flight",
         toss: |distance| {
-            let falling = |time| tilted([2.0, 5.0, 1.0], 1.0, time);
-            let flip = CoinMotion::new(&falling(0.0)?).first_flip().unwrap_or(f64::NAN);
-            Ok(falling(flip / (1.0 + distance))?.into())
+            let falling = |time| coin([2.0, 5.0, 1.0], 1.0, time);
+            let flip = motion(&falling(0.0)?).first_flip().unwrap_or(f64::NAN);
+            falling(flip / (1.0 + distance))
         },
         distances: DECADES,
     },
@@ -153,11 +153,12 @@ fn body(moments: [f64; 3], rate: [f64; 3], time: f64) -> Result<Toss, InputError
 
 /// The paper's coin at `rate` (rad/s) from `tilt` (rad), for `time` (s).
 fn coin(rate: [f64; 3], tilt: f64, time: f64) -> Result<Toss, InputError> {
-    tilted(rate, tilt, time).map(Toss::from)
+    tossed(Coin::PAPER, rate, TimeOfFlight::Given(time), tilt)
 }
 
-fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<CoinToss, InputError> {
-    tossed(Coin::PAPER, rate, TimeOfFlight::Given(time), tilt)
+/// The motion of a coin.
+fn motion(toss: &Toss) -> CoinMotion {
+    CoinMotion::new(&toss.coin().expect("a coin"))
 }
 
 /// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.

@@ -19,7 +19,7 @@ use toss::{
 use crate::measure::check::Basis::CrossMethod;
 use crate::measure::check::Fold::{Count, Largest};
 use crate::measure::check::Measure::Tosses;
-use crate::measure::check::{Check, Set};
+use crate::measure::check::{Check, Set, coin};
 use crate::measure::context::Context;
 use crate::measure::families::{FAMILIES, Family, LONG, launches};
 use crate::measure::reference::Reference;
@@ -79,13 +79,13 @@ pub(super) const CHECKS: &[Check] = &[
         "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
          without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
     ),
-    Check::of_library("rigid-cos-tilt", Tosses(|| on_long_flights(cos_tilt_of_body), Largest))
+    Check::of_library("rigid-cos-tilt", Tosses(|| on_long_flights(cos_tilt_error), Largest))
         .up_to(1e-15, "1")
         .claims(
             "cos θ at landing of any rigid body differs from the 256-bit reference by at most the limit, for phases \
              from 1 to 1e9 rad.",
         ),
-    Check::of_library("rigid-attitude", Tosses(|| on_long_flights(attitude_of_body), Largest))
+    Check::of_library("rigid-attitude", Tosses(|| on_long_flights(attitude_error), Largest))
         .up_to(1e-14, "rad")
         .claims(
             "The attitude at landing of any rigid body differs from the 256-bit reference by at most the limit, for \
@@ -102,9 +102,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 fn outcomes() -> Vec<Set> {
-    let differs = |toss: &CoinToss, reference: &Reference| {
-        Ok(f64::from(certify(&(*toss).into())?.outcome() != reference.outcome()))
-    };
+    let differs = |toss: &Toss, reference: &Reference| Ok(f64::from(certify(toss)?.outcome() != reference.outcome()));
     vec![
         Set::of_tries("random", |tries| random(3 * tries, 6e4, 4), differs),
         Set::of_tries("adversarial", |tries| adversarial(tries, few_turns), differs),
@@ -126,9 +124,9 @@ fn bounds() -> Vec<Set> {
     ]
 }
 
-type OfCoin = fn(&CoinToss, &Reference) -> Deviation;
+type OfToss = fn(&Toss, &Reference) -> Deviation;
 
-fn last_bits(error: OfCoin) -> Vec<Set> {
+fn last_bits(error: OfToss) -> Vec<Set> {
     vec![
         Set::of_tries("phases to 1e2", |tries| random(tries, 1e2, 1), error),
         Set::of_tries("phases to 6e4", |tries| random(tries, 6e4, 2), error),
@@ -137,44 +135,39 @@ fn last_bits(error: OfCoin) -> Vec<Set> {
     ]
 }
 
-fn cos_tilt_of_exact_motion(toss: &CoinToss) -> Deviation {
-    CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
-}
-
 /// Error of cos θ.
-fn cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
-    Ok(reference.cos_tilt_error(cos_tilt_of_exact_motion(toss)?))
+pub(super) fn cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
 }
 
 /// Angle to the exact attitude (rad).
-fn attitude_error(toss: &CoinToss, reference: &Reference) -> Deviation {
-    Ok(reference.attitude_error(&CoinMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
+pub(super) fn attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
 }
 
 /// Angle of the attitude of the Euler angles to the exact one, in ulp of 1 plus the largest angle.
-fn euler_angles_error(toss: &CoinToss, reference: &Reference) -> Deviation {
-    let angles = CoinMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
+fn euler_angles_error(toss: &Toss, reference: &Reference) -> Deviation {
+    let angles = CoinMotion::new(&coin(toss)?).euler_angles(toss.launch.time_of_flight())?;
     let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
     Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
 }
 
 /// Error of cos θ in the f64 stage, divided by the stage's error bound.
-fn part_of_f64_bound(toss: &CoinToss, reference: &Reference) -> Deviation {
-    let terms = TiltTerms::new(toss);
+fn part_of_f64_bound(toss: &Toss, reference: &Reference) -> Deviation {
+    let terms = TiltTerms::new(&coin(toss)?);
     let [phase, _] = terms.phases(toss.launch.flight_time());
     let error = reference.cos_tilt_error(terms.height(phase) / terms.size);
     Ok(error / f64_bound(phase))
 }
 
 /// Error of cos θ in the double-double stage, divided by the radius of its ball; 0 of a toss that has none.
-fn part_of_double_double_bound(toss: &CoinToss, reference: &Reference) -> Deviation {
-    let Some(ball) = cos_tilt_in_double_double(toss) else { return Ok(0.0) };
+fn part_of_double_double_bound(toss: &Toss, reference: &Reference) -> Deviation {
+    let Some(ball) = cos_tilt_in_double_double(&coin(toss)?) else { return Ok(0.0) };
     Ok(reference.unrounded_cos_tilt_error(*ball.midpoint()) / ball.radius())
 }
 
 fn outcomes_of_batches() -> Vec<Set> {
-    let differs =
-        |toss: &CoinToss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
+    let differs = |toss: &Toss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
     vec![
         Set::of_tries("random", |tries| level(random(tries, 6e4, 14)?), differs),
         Set::of_tries("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), differs),
@@ -189,15 +182,15 @@ fn simd_levels() -> Vec<Set> {
     ]
 }
 
-fn batched_cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+fn batched_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
     Ok(reference.cos_tilt_error(batched(toss, cos_tilt)?))
 }
 
-fn batched_attitude_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+fn batched_attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
     Ok(reference.attitude_error(&batched(toss, attitude)?))
 }
 
-fn of_batches(error: OfCoin) -> Vec<Set> {
+fn of_batches(error: OfToss) -> Vec<Set> {
     vec![
         Set::of_tries("phases to 1e2", |tries| level(random(tries, 1e2, 11)?), error),
         Set::of_tries("phases to 1e9", |tries| level(random(tries, 1e9, 13)?), error),
@@ -215,19 +208,19 @@ fn of_varying() -> Vec<Set> {
 }
 
 /// The tosses, caught above the hand: below the highest point by all that they rise, down to 1e-6 of it.
-fn caught_high(tosses: Vec<CoinToss>) -> anyhow::Result<Vec<CoinToss>> {
-    let caught = |(index, toss): (usize, CoinToss)| {
+fn caught_high(tosses: Vec<Toss>) -> anyhow::Result<Vec<Toss>> {
+    let caught = |(index, toss): (usize, Toss)| {
         let (speed, gravity) = (1.0 + (index % 7) as f64, 9.81);
         let left = 10f64.powf(-0.0595 * (index % 101) as f64);
         let drop = -0.5 * speed * speed / gravity * (1.0 - left);
         let flight = TimeOfFlight::BallisticTo { speed, gravity, drop };
-        Ok(CoinToss { launch: toss.launch.with_time_of_flight(flight)?, ..toss })
+        Ok(Toss { launch: toss.launch.with_time_of_flight(flight)?, ..toss })
     };
     tosses.into_iter().enumerate().map(caught).collect()
 }
 
 /// The error of cos θ by the kernel of launches that vary in all; 0 of one that it leaves out.
-fn varied_cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+fn varied_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
     let one = Column::All;
     let flights = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => Flights::Level(one(speed), one(gravity)),
@@ -241,16 +234,16 @@ fn varied_cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
     let rate = toss.launch.rate();
     let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
     let mut found = [0.0];
-    Varying { coin: toss.coin, rates, flights, attitudes }.cos_tilts(&mut found).expect("a valid coin");
+    Varying { coin: coin(toss)?.coin, rates, flights, attitudes }.cos_tilts(&mut found).expect("a valid coin");
     Ok(if found[0].is_nan() { 0.0 } else { reference.cos_tilt_error(found[0]) })
 }
 
 /// The tosses as a batch can take them: it knows no landing at another height, only how long such a flight lasts.
-fn level(tosses: Vec<CoinToss>) -> anyhow::Result<Vec<CoinToss>> {
-    let level = |toss: CoinToss| {
+fn level(tosses: Vec<Toss>) -> anyhow::Result<Vec<Toss>> {
+    let level = |toss: Toss| {
         let flight = toss.launch.time_of_flight();
         let TimeOfFlight::BallisticTo { .. } = flight else { return Ok(toss) };
-        Ok(CoinToss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(flight.seconds()))?, ..toss })
+        Ok(Toss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(flight.seconds()))?, ..toss })
     };
     tosses.into_iter().map(level).collect()
 }
@@ -261,7 +254,7 @@ fn many_turns(index: usize) -> f64 {
 }
 
 /// The number of SIMD levels that give other bits than plain code.
-fn levels_that_differ(toss: &CoinToss, _: &Reference) -> Deviation {
+fn levels_that_differ(toss: &Toss, _: &Reference) -> Deviation {
     let bits = |batch: &Batch<'_>| -> Result<_, Error> {
         let turned: Attitude = attitude(batch)?;
         Ok((cos_tilt(batch)?.to_bits(), turned.components().map(f64::to_bits), outcome(batch)?))
@@ -272,7 +265,7 @@ fn levels_that_differ(toss: &CoinToss, _: &Reference) -> Deviation {
     SimdLevel::all().into_iter().map(differs).sum()
 }
 
-fn batched<T>(toss: &CoinToss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
+fn batched<T>(toss: &Toss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
     let rate = toss.launch.rate();
     // A batch takes speeds, not times: with a gravity of 2 m/s² the time 2 v0/g has the number of the speed.
     let (speed, gravity) = match toss.launch.time_of_flight() {
@@ -281,8 +274,8 @@ fn batched<T>(toss: &CoinToss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) 
     };
     let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
     let attitude = toss.launch.attitude();
-    let tosses =
-        toss::Tosses::new(toss.coin, attitude, gravity, rates, std::slice::from_ref(&speed)).expect("a valid toss");
+    let tosses = toss::Tosses::new(coin(toss)?.coin, attitude, gravity, rates, std::slice::from_ref(&speed))
+        .expect("a valid toss");
     kernel(&Batch::new(tosses)).map_err(|error| match error {
         Error::Launch { source, .. } => source,
         other => unreachable!("a valid toss: {other}"),
@@ -316,25 +309,15 @@ fn terms() -> Vec<Set> {
 
 /// Error of cos θ at launch before it is rounded to f64. There the terms of cos θ add up to it without a sine or cosine
 /// of f64, whose rounding hides theirs.
-fn terms_error(toss: &CoinToss, _: &Reference) -> Deviation {
+fn terms_error(toss: &Toss, _: &Reference) -> Deviation {
     let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(0.0)).expect("a valid time");
-    let toss = CoinToss { launch, ..*toss };
+    let toss = CoinToss { launch, ..coin(toss)? };
     let (cos_tilt, _) = CoinMotion::new(&toss).cos_tilt_parts(0.0)?;
     Ok(Reference::new(&toss).unrounded_cos_tilt_error(cos_tilt))
 }
 
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
     Set::of_families(&FAMILIES, |family, context| launches(family, tries(context.effort) / 20, LONG), deviation)
-}
-
-/// Error of cos θ of any body.
-pub(super) fn cos_tilt_of_body(toss: &Toss, reference: &Reference) -> Deviation {
-    Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
-}
-
-/// Angle of any body to the exact attitude (rad).
-pub(super) fn attitude_of_body(toss: &Toss, reference: &Reference) -> Deviation {
-    Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
 }
 
 fn at_edges() -> Vec<Set> {
@@ -407,7 +390,7 @@ fn derivatives() -> Vec<Set> {
     let set = |(part, name)| {
         let tosses =
             |context: &Context| Ok(context.survey.get(context)?.tosses.iter().take(LAUNCHES).copied().collect());
-        Set::of_coins(name, tosses, move |toss, _| Ok(errors_of_derivatives(toss)?[part]))
+        Set::new(name, tosses, move |toss, _| Ok(errors_of_derivatives(&coin(toss)?)?[part])).of_coins()
     };
     [(0, "attitude"), (1, "cos θ")].map(set).into()
 }

@@ -7,7 +7,7 @@ use exact::certify;
 use rayon::prelude::*;
 use toss::{Outcome, Scheme, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight};
 
-use super::exact::{at_an_edge, attitude_of_body, cos_tilt_of_body};
+use super::exact::{at_an_edge, attitude_error, cos_tilt_error};
 use super::landings::{part_of_allowed, part_of_estimate};
 use super::proofs::share;
 use crate::measure::adversary::{self, Answers};
@@ -36,11 +36,11 @@ pub(super) const CHECKS: &[Check] = &[
              by Taylor series, lands at the same attitude: on coins, and on a sample of each family of bodies, for \
              phases of 1 to 100 rad. Measured: the largest angle between the two; it fails above the limit.",
         ),
-    Check::of_library("hard-cos-tilt", Tosses(|| of_families(cos_tilt_of_body), Largest)).up_to(1e-15, "1").claims(
+    Check::of_library("hard-cos-tilt", Tosses(|| of_families(cos_tilt_error), Largest)).up_to(1e-15, "1").claims(
         "cos θ at landing from the exact motion differs from the reference by at most the limit, for bodies of eight \
          families without a simple case and phases of 1 to 30 rad.",
     ),
-    Check::of_library("hard-attitude", Tosses(|| of_families(attitude_of_body), Largest)).up_to(1e-14, "rad").claims(
+    Check::of_library("hard-attitude", Tosses(|| of_families(attitude_error), Largest)).up_to(1e-14, "rad").claims(
         "The attitude at landing from the exact motion differs from the reference by at most the limit, for bodies of \
          eight families without a simple case and phases of 1 to 30 rad.",
     ),
@@ -88,7 +88,7 @@ fn closed_forms() -> Vec<Set> {
     let number = |context: &Context| hard_number(context.effort) / 4;
     let coins = move |context: &Context| {
         let adversarial = (0..4 * number(context) as usize).map(|index| adversary::launch(8, index));
-        let random = random(number(context), 100.0, 81)?.into_iter().map(Toss::from);
+        let random = random(number(context), 100.0, 81)?.into_iter();
         Ok(random.chain(adversarial).filter(|toss| Reference::flown(toss).is_ok()).collect())
     };
     let bodies = |family: &'static Family, context: &Context| launches(family, hard_number(context.effort) / 4, TOSSED);

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use dynamics::Phases;
 use rayon::prelude::*;
-use toss::{CoinMotion, CoinToss, Formulation, Landing, Launch, Scheme, SolverEntry, State, TimeOfFlight, Toss};
+use toss::{CoinMotion, Formulation, Landing, Launch, Scheme, SolverEntry, State, TimeOfFlight, Toss};
 
 use crate::measure::any_launch;
 use crate::measure::case::is_horizontal;
@@ -208,7 +208,7 @@ fn returning_flights(context: &Context) -> anyhow::Result<Vec<Toss>> {
             continue;
         }
         let time = TimeOfFlight::Given((TAU - DISTANCE) / motion.precession_rate());
-        tosses.push(CoinToss { launch: Launch::new(toss.launch.rate(), time)?, ..toss }.into());
+        tosses.push(Toss::new(toss.coin, Launch::new(toss.launch.rate(), time)?));
     }
     Ok(tosses)
 }

@@ -6,13 +6,12 @@ use std::f64::consts::TAU;
 
 use dynamics::Toss;
 use toss::{
-    CoinMotion, CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Vector3, level_speeds_of_heads, margin,
-    speeds_of_heads,
+    CoinMotion, Launch, Outcome, SolveError, TimeOfFlight, Vector3, level_speeds_of_heads, margin, speeds_of_heads,
 };
 
 use crate::measure::check::Fold::Largest;
 use crate::measure::check::Measure::Tosses;
-use crate::measure::check::{Check, Set};
+use crate::measure::check::{Check, Set, coin};
 use crate::measure::context::Context;
 use crate::measure::families::{Family, HARD, hard_number, hard_tosses_of};
 use crate::measure::reference::Reference;
@@ -48,11 +47,9 @@ const LOOKS: [u32; 2] = [12, 3];
 /// Number of turns over which speeds of heads are compared.
 const MOST_TURNS: f64 = 20.0;
 
-fn of_coins(seed: u64, wrong: fn(&CoinToss, &Reference) -> Deviation) -> Vec<Set> {
-    let tosses = move |context: &Context| {
-        Ok(random(context.effort.of([15, 150, 3000]), 1e2, seed)?.into_iter().map(Toss::from).collect())
-    };
-    vec![Set::of_coins("random", tosses, wrong)]
+fn of_coins(seed: u64, wrong: fn(&Toss, &Reference) -> Deviation) -> Vec<Set> {
+    let tosses = move |context: &Context| random(context.effort.of([15, 150, 3000]), 1e2, seed);
+    vec![Set::new("random", tosses, wrong).of_coins()]
 }
 
 fn of_bodies() -> Vec<Set> {
@@ -109,15 +106,14 @@ fn throw(toss: &Toss, [by_speed, by_gravity]: [f64; 2]) -> Option<Toss> {
     relaunched(toss, [0.0; 3], time_of_flight)
 }
 
-fn wrong_margins(toss: &CoinToss, reference: &Reference) -> Deviation {
-    let toss = Toss::from(*toss);
-    let found = margin(&toss)?;
+fn wrong_margins(toss: &Toss, reference: &Reference) -> Deviation {
+    let found = margin(toss)?;
     // Beyond these changes no flip was searched for, or all values are tried.
-    let [speed, gravity] = thrown(&toss);
+    let [speed, gravity] = thrown(toss);
     let turn = TAU / toss.launch.flight_time().max(1e-3);
     let rate = |axis: usize| (RATE[axis], found.rate[axis], found.rate_range[axis].min(4.0 * turn));
     let thrown = [(SPEED, found.speed, speed), (GRAVITY, found.gravity, 0.99 * gravity), (TILT, found.tilt, 1.5)];
-    Ok(number_of_wrong(&toss, reference.outcome(), LOOKS[0], &[&thrown[..], &[0, 1, 2].map(rate)].concat()))
+    Ok(number_of_wrong(toss, reference.outcome(), LOOKS[0], &[&thrown[..], &[0, 1, 2].map(rate)].concat()))
 }
 
 fn wrong_margins_of_bodies(toss: &Toss, reference: &Reference) -> Deviation {
@@ -159,17 +155,15 @@ fn looked_at(range: f64, number: u32) -> impl Iterator<Item = f64> {
 
 /// The number of speeds, at the ends of the intervals of heads and in between, whose outcome is another one: for a
 /// landing at the height of the launch, below and above it.
-fn wrong_speeds(toss: &CoinToss, _: &Reference) -> Deviation {
-    let toss = Toss::from(*toss);
-    let [speed, gravity] = thrown(&toss);
+fn wrong_speeds(toss: &Toss, _: &Reference) -> Deviation {
+    let [speed, gravity] = thrown(toss);
     // Of a toss of many turns only the last ones, because each has an interval.
-    let coin = |toss: &Toss| toss.of_coin("the measure", "it is taken on coins alone");
-    let turns = CoinMotion::new(&coin(&toss)?).phase(toss.launch.flight_time())? / TAU;
+    let turns = CoinMotion::new(&coin(toss)?).phase(toss.launch.flight_time())? / TAU;
     let slowest = speed * (1.0 - MOST_TURNS / turns).max(0.4);
     let mut wrong = 0;
     for drop in [None, Some(0.3), Some(-0.01 * speed * speed / gravity)] {
         let flight = TimeOfFlight::thrown(speed, gravity, drop);
-        let Some(toss) = relaunched(&toss, [0.0; 3], flight) else { continue };
+        let Some(toss) = relaunched(toss, [0.0; 3], flight) else { continue };
         let heads = speeds_of_heads(&toss, slowest)?.unwrap_or_default();
         if drop.is_none() {
             // Both functions answer the same question here.

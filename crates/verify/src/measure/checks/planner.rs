@@ -77,9 +77,8 @@ const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
 const BODIES: &str = "bodies";
 
 fn plan(index: u64) -> anyhow::Result<Planned> {
-    let (mut rng, coin) = hostile::planned(index);
+    let (mut rng, toss) = hostile::planned(index);
     let kind = one(&mut rng, KINDS);
-    let toss = coin.into();
     let want = match kind {
         "outcome" => Want::Outcome(toss),
         "tilt" => Want::Tilt(toss),

@@ -6,7 +6,7 @@
 
 use dynamics::{Phases, Toss};
 use rayon::prelude::*;
-use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
+use toss::{IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
 
 use super::exact::moved_to_an_edge;
 use crate::measure::check::Fold::{Count, Largest, Median};
@@ -38,8 +38,8 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 fn tightness() -> Vec<Set> {
-    let ratio = |toss: &CoinToss, reference: &Reference| {
-        let found = usual()?.enclose(&(*toss).into())?;
+    let ratio = |toss: &Toss, reference: &Reference| {
+        let found = usual()?.enclose(toss)?;
         Ok(found.attitude_error_bound() / distance(&found, reference))
     };
     [("phases to 1e2", 1e2, 10), ("phases to 1e3", 1e3, 10), ("phases to 1e5", 1e5, 100)]
@@ -56,8 +56,8 @@ fn usual() -> Result<QuaternionSolver, SolveError> {
 }
 
 /// Refuses flights of more than the phase 1e5 rad, which would take minutes and are in none of the sets.
-fn require_short(toss: &CoinToss) -> Result<(), SolveError> {
-    let phase = Phases::new(&(*toss).into())?.largest;
+fn require_short(toss: &Toss) -> Result<(), SolveError> {
+    let phase = Phases::new(toss)?.largest;
     let error =
         || SolveError::failed(QuaternionSolver::NAME, std::io::Error::other("flights above 1e5 rad are not flown"));
     (phase <= 1e5).then_some(()).ok_or_else(error)
@@ -65,15 +65,15 @@ fn require_short(toss: &CoinToss) -> Result<(), SolveError> {
 
 /// The sets of coins, each with the tolerance of its flights.
 fn bounds() -> Vec<Set> {
-    fn set(name: &str, tolerance: f64, tosses: fn(u64) -> anyhow::Result<Vec<CoinToss>>) -> Set {
-        let share = move |toss: &CoinToss, reference: &Reference| {
+    fn set(name: &str, tolerance: f64, tosses: fn(u64) -> anyhow::Result<Vec<Toss>>) -> Set {
+        let share = move |toss: &Toss, reference: &Reference| {
             require_short(toss)?;
-            Ok(share(&taylor(tolerance)?.enclose(&(*toss).into())?, reference))
+            Ok(share(&taylor(tolerance)?.enclose(toss)?, reference))
         };
         Set::of_tries(name, tosses, share)
     }
-    fn is_short(toss: &CoinToss) -> bool {
-        Phases::new(&(*toss).into()).is_ok_and(|phases| phases.largest <= LONGEST)
+    fn is_short(toss: &Toss) -> bool {
+        Phases::new(toss).is_ok_and(|phases| phases.largest <= LONGEST)
     }
     vec![
         set("phases to 1e2", Stepping::DEFAULT_TOLERANCE, |tries| random(tries, 1e2, 31)),
@@ -125,9 +125,9 @@ fn bounds_of_family(context: &Context, family: &Family, solvers: &[QuaternionSol
 }
 
 fn outcomes() -> Vec<Set> {
-    let of_coin = |toss: &CoinToss, reference: &Reference| {
+    let of_coin = |toss: &Toss, reference: &Reference| {
         require_short(toss)?;
-        Ok(f64::from(usual()?.certify(&(*toss).into())?.outcome() != reference.outcome()))
+        Ok(f64::from(usual()?.certify(toss)?.outcome() != reference.outcome()))
     };
     let coins = [
         Set::of_tries("random", |tries| random(tries, 1e2, 35), of_coin),

@@ -75,7 +75,8 @@ const PER_DECADE: i32 = 4;
 fn proportion(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5"), (Tilt, "0:3")];
     let tosses = random_flights(&Space::parse(Coin::PAPER, &axes)?, 1, FLIGHTS)?;
-    let flights: Vec<_> = tosses.into_iter().map(|toss| (toss, Reference::new(&toss))).collect();
+    let flights: Vec<_> =
+        tosses.into_iter().map(|toss| Ok((toss, Reference::of(&toss)?))).collect::<anyhow::Result<_>>()?;
     let mut measurements = Vec::new();
     for entry in &context.registry {
         for scheme in entry.schemes().iter().filter(|scheme| scheme.is_adaptive()) {

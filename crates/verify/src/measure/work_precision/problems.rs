@@ -4,7 +4,7 @@
 use anyhow::{Context, bail, ensure};
 use sampling::Space;
 use serde::Deserialize;
-use toss::{CoinToss, Toss};
+use toss::Toss;
 
 use crate::measure::case;
 use crate::measure::tosses::{random_flights, throw};
@@ -68,9 +68,9 @@ impl Entry {
 
 /// Random launches, whose times of flight are given in every form.
 fn ensemble(space: &Space, launches: u64) -> anyhow::Result<Vec<Toss>> {
-    let vary = |(turn, toss): (u64, CoinToss)| {
+    let vary = |(turn, toss): (u64, Toss)| {
         let launch = toss.launch.with_time_of_flight(throw(toss.launch.time_of_flight(), turn))?;
-        Ok(Toss::new(toss.coin, launch))
+        Ok(Toss { launch, ..toss })
     };
     (0..).zip(random_flights(space, 1, launches)?).map(vary).collect()
 }
