@@ -103,7 +103,8 @@ fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<Toss, InputError> {
 
 fn drawn_body(rng: &mut ChaCha8Rng, index: u64) -> Result<Toss, InputError> {
     let [a, b, c] = [0; 3].map(|_| rng.random_range(0.05..1.0));
-    let (axis, unit) = (rng.random_range(0..3), 2f64.powi(rng.random_range(-20..10)));
+    // Not about z, of which it would be a coin.
+    let (axis, unit) = (one(rng, [0, 2]), 2f64.powi(rng.random_range(-20..10)));
     let mut moments = match index % 8 {
         0 => [0.0, a, a],
         1 => [a, b, a + b],
@@ -117,7 +118,7 @@ fn drawn_body(rng: &mut ChaCha8Rng, index: u64) -> Result<Toss, InputError> {
         _ => Body::from_moments(moments),
     };
     let rate = rate(rng);
-    let phase = if index % 40 == 0 { 0.0 } else { decades(rng, -2.0, 2.0) };
+    let phase = if index % 40 == 0 { 0.0 } else { decades(rng, -2.0, 1.5) };
     let launch = Launch::new(rate, TimeOfFlight::Given(phase / rate.norm()))?;
     Ok(Toss { body: body?, launch: launch.with_attitude(attitude(rng, index)?) })
 }

@@ -15,6 +15,10 @@ use crate::measure::reference::Reference;
 /// The tolerance of a flight by numbers that are those of no coin.
 const TOLERANCE: f64 = 1e-11;
 
+/// A body turns at most √3 times as fast as at its launch. By wrong equations, rates may grow without end, and with them the
+/// rounding errors of whoever integrates them: above so many times that at launch a landing says nothing.
+const FASTEST: f64 = 10.0;
+
 /// The numbers of a question, in its units and along principal axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Numbers {
@@ -57,7 +61,7 @@ impl Numbers {
         sorted
     }
 
-    /// Where these numbers lead, at an angle (rad) from `answer`; `None` where they lead nowhere.
+    /// The angle (rad) from where these numbers land to `answer`; `None` where they have no landing.
     pub(super) fn angle_to(&self, answer: &Attitude) -> Option<f64> {
         let Self { couplings: [a, b, c], rate, time, attitude, .. } = *self;
         let given = [a, b, c, rate[0], rate[1], rate[2], time];
@@ -73,8 +77,9 @@ impl Numbers {
         let stepping = Stepping::adaptive(Scheme::DOP853, TOLERANCE).ok()?;
         let (landed, _) =
             integrate(&Flown(self.couplings), SVector::from([w, x, y, z, p, q, r]), time, scale, &stepping).ok()?;
-        let landed = Attitude::from_components([landed[0], landed[1], landed[2], landed[3]]).ok()?;
-        Some(landed.angle_to(answer))
+        let [w, x, y, z, p, q, r] = landed.data.0[0];
+        let growth = Vector3::new(p, q, r).norm() * scale / Vector3::from(rate).norm();
+        Some(Attitude::from_components([w, x, y, z]).ok()?.angle_to(answer)).filter(|_| growth <= FASTEST)
     }
 
     fn with_moments(self, moments: [f64; 3]) -> Self {

@@ -27,8 +27,9 @@ pub(crate) use self::hypotheses::Numbers;
 /// The number of launches of coins that a diagnosis asks for, and as many of other bodies.
 const LAUNCHES: u64 = 1000;
 
-/// Of the launches one in so many says whether a solver is right, before it is measured.
-const ONE_IN: usize = 10;
+/// Of the launches one in so many says whether a solver is right, before it is measured: a prime number, so that launches of
+/// every kind are among them.
+const ONE_IN: usize = 7;
 
 /// So long the launches of one kind are asked for. What a slow solver has not answered by then is left out.
 const ASKED_FOR: Duration = Duration::from_secs(20);
@@ -171,8 +172,12 @@ impl Asked {
             let answer = (hypothesis.read)(&self.numbers, (answer * self.axes).components());
             Attitude::from_components(answer).ok()
         };
-        let off = asked.angle_to(&right().unwrap_or(Attitude::IDENTITY))?;
-        Some(right().is_some() && off <= 10.0 * self.allowed.attitude.max(NEAR))
+        let answer = right();
+        match asked.angle_to(&answer.unwrap_or(Attitude::IDENTITY)) {
+            Some(off) => Some(answer.is_some() && off <= 10.0 * self.allowed.attitude.max(NEAR)),
+            // Numbers without a landing explain why there is no answer.
+            None => self.answer.is_err().then_some(true),
+        }
     }
 
     /// The fewer digits a question has, and the shorter its flight, the easier it is to follow.
@@ -305,7 +310,10 @@ impl Cause {
 
     /// One that explains what it does, in `words` with the number.
     fn explaining(words: &str, explains: Vec<Option<bool>>) -> Self {
-        Self { words: format!("{words}: {} of {}", count(&explains), explains.len()), explains }
+        let said = explains.iter().flatten().count();
+        let rest = explains.len() - said;
+        let rest = if rest == 0 { String::new() } else { format!(", and {rest} have no landing then") };
+        Self { words: format!("{words}: {} of {said}{rest}", count(&explains)), explains }
     }
 }
 
@@ -333,7 +341,7 @@ fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
     let also: Vec<&Asked> = also.iter().collect();
     let share = |hypothesis: &Hypothesis, on: &[&Asked]| {
         let explains: Vec<_> = on.par_iter().map(|one| one.is_explained(hypothesis)).collect();
-        count(&explains) as f64 / explains.iter().flatten().count().max(1) as f64
+        count(&explains) as f64 / explains.iter().flatten().count().max(on.len().div_ceil(2)) as f64
     };
     let explains =
         |hypothesis: &&Hypothesis| share(hypothesis, &few) > 0.75 && share(hypothesis, &wrong) >= EXPLAINED;
