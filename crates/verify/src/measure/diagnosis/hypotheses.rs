@@ -75,11 +75,11 @@ impl Numbers {
         let scale = power_of_two_scale(Vector3::from(rate).amax());
         let ([w, x, y, z], [p, q, r]) = (attitude, rate.map(|part| part / scale));
         let stepping = Stepping::adaptive(Scheme::DOP853, TOLERANCE).ok()?;
-        let (landed, _) =
-            integrate(&Flown(self.couplings), SVector::from([w, x, y, z, p, q, r]), time, scale, &stepping).ok()?;
+        let flown = Flown { couplings: self.couplings, fastest: FASTEST * Vector3::new(p, q, r).norm() };
+        let (landed, _) = integrate(&flown, SVector::from([w, x, y, z, p, q, r]), time, scale, &stepping).ok()?;
         let [w, x, y, z, p, q, r] = landed.data.0[0];
-        let growth = Vector3::new(p, q, r).norm() * scale / Vector3::from(rate).norm();
-        Some(Attitude::from_components([w, x, y, z]).ok()?.angle_to(answer)).filter(|_| growth <= FASTEST)
+        let has_landing = Vector3::new(p, q, r).norm() <= flown.fastest;
+        Some(Attitude::from_components([w, x, y, z]).ok()?.angle_to(answer)).filter(|_| has_landing)
     }
 
     fn with_moments(self, moments: [f64; 3]) -> Self {
@@ -125,15 +125,21 @@ impl Numbers {
     }
 }
 
-/// Q' = ½ Q ω and Euler's equations with any couplings.
-struct Flown([f64; 3]);
+/// Q' = ½ Q ω and Euler's equations with any couplings. A rate that grows beyond `fastest` is not followed.
+struct Flown {
+    couplings: [f64; 3],
+    fastest: f64,
+}
 
 impl OdeSystem<7> for Flown {
     fn derivative(&self, y: &SVector<f64, 7>) -> SVector<f64, 7> {
         let &[w, x, y, z, p, q, r] = &y.data.0[0];
+        if Vector3::new(p, q, r).norm() > self.fastest {
+            return SVector::zeros();
+        }
         let turned = quaternion([w, x, y, z]) * Quaternion::new(0.0, p, q, r) * 0.5;
         let [w, x, y, z] = components(turned);
-        let [p, q, r] = principal_acceleration(self.0, [p, q, r]);
+        let [p, q, r] = principal_acceleration(self.couplings, [p, q, r]);
         SVector::from([w, x, y, z, p, q, r])
     }
 }
