@@ -27,7 +27,7 @@ fn of_one(found: &Diagnosis) -> String {
 
 /// What is said before the checks begin.
 pub(crate) fn early(found: &Diagnosis) -> String {
-    of_one(found) + "The checks go on.\n"
+    of_one(found) + "The checks go on; interrupt them if this is enough.\n"
 }
 
 /// The solver with its likeliest cause.

@@ -210,8 +210,7 @@ impl Suite {
         let baseline = Baseline::read(&path)?.map(|baseline| baseline.worse_above(ratio));
         let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
         let (checks, mut left_out) = self.checks()?;
-        let wrong = self.wrong_program(&context)?;
-        wrong.iter().for_each(|found| show(Progress::Wrong(found)));
+        self.wrong_program(&context)?.iter().for_each(|found| show(Progress::Wrong(found)));
         let (mut rows, timings) = self.measure(&checks, &context, &limits, show)?;
         let is_complete = self.only.is_none() && timings.len() == checks.len();
         let unused = match is_complete {
@@ -231,13 +230,9 @@ impl Suite {
         let found = Baseline::of(&rows, context.sweep.found());
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
         let compared = Compared { file: shown(&path.display().to_string()), found: baseline.is_some(), written: false };
-        let diagnoses = match wrong {
-            Some(_) if rows.iter().all(|row| row.status.passes()) => Vec::new(),
-            Some(found) => vec![found],
-            // A solver that never ended a check would not end a diagnosis, either.
-            None if timings.len() < checks.len() => Vec::new(),
-            None => self.diagnoses(&context, &rows)?,
-        };
+        // A solver that never ended a check would not end a diagnosis, either.
+        let has_ended = timings.len() == checks.len();
+        let diagnoses = if has_ended { self.diagnoses(&context, &rows)? } else { Vec::new() };
         let asked = self.program().map(Running::tally);
         Ok(Report::new(context, rows, timings, compared, moves, left_out).with_diagnoses(diagnoses, asked))
     }

@@ -270,10 +270,10 @@ pub(super) const HYPOTHESES: [Hypothesis; 50] = [
     Hypothesis::of_question("ωz' = (i1 - i2)/i3 ωx ωy is added, which it leaves out", |numbers| {
         numbers.with_torques([1.0, 1.0, 0.0])
     }),
-    Hypothesis::of_question("its Euler's equations are divided by i1, i2 and i3", |numbers| {
+    Hypothesis::of_question("each of its Euler's equations is divided by its moment", |numbers| {
         numbers.with_torques(numbers.moments)
     }),
-    Hypothesis::of_question("its Euler's equations are divided by i1, i2 and i3 instead of by i1", |numbers| {
+    Hypothesis::of_question("its Euler's equations for y and z are divided by i2 and i3 instead of by i1", |numbers| {
         numbers.with_torques(numbers.moments.map(|moment| moment / numbers.moments[0]))
     }),
     Hypothesis::of_question("the rate is divided by its length, or the time is taken for the angle", |numbers| {

@@ -219,24 +219,32 @@ type Ask<'a> = dyn Fn(&Toss, f64) -> Option<Asked> + Sync + 'a;
 
 /// What `subject` most likely does wrong, by what `ask` answers.
 pub(crate) fn of_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
-    let [coins, bodies] = launches()?;
-    let of_coins = TOLERANCES.iter().find_map(|by| {
-        // Only of a wrong solver is asked what it makes of bodies, too.
-        let asked = some_of(&coins, 1, *by, ask);
-        let also = if asked.iter().all(Asked::is_right) { Vec::new() } else { some_of(&bodies, ONE_IN, *by, ask) };
-        diagnosis(subject, asked, &also)
-    });
-    let of_bodies = || TOLERANCES.iter().find_map(|by| diagnosis(subject, some_of(&bodies, 1, *by, ask), &[]));
-    Ok(of_coins.or_else(of_bodies))
+    let launches = launches()?;
+    let of = |kind: usize| TOLERANCES.iter().find_map(|by| of_kind(kind, &launches, 1, *by, subject, ask));
+    Ok(of(0).or_else(|| of(1)))
 }
 
-/// The same if a few launches show that it is wrong.
+/// The same of a solver that is wrong on a few launches, by these alone if a cause explains them.
 pub(crate) fn of_wrong_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
-    let is_wrong = |launches: &Vec<Toss>| {
-        let asked = some_of(launches, ONE_IN, TOLERANCES[0], ask);
-        asked.iter().any(|one| !one.is_right() && !(one.answer.is_err() && any_launch::may_be_declined(&one.toss)))
-    };
-    if launches()?.iter().any(is_wrong) { of_solver(subject, ask) } else { Ok(None) }
+    let launches = launches()?;
+    let found = (0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask));
+    if found.as_ref().is_none_or(|found| found.explains_all) { Ok(found) } else { of_solver(subject, ask) }
+}
+
+/// By its answers to one in so many launches of a kind.
+fn of_kind(
+    kind: usize,
+    launches: &[Vec<Toss>; 2],
+    one_in: usize,
+    tolerance: f64,
+    subject: &str,
+    ask: &Ask<'_>,
+) -> Option<Diagnosis> {
+    let asked = some_of(&launches[kind], one_in, tolerance, ask);
+    // What is wrong for coins may be told apart by bodies.
+    let also = kind == 0 && !asked.iter().all(Asked::is_right);
+    let also = if also { some_of(&launches[1], ONE_IN, tolerance, ask) } else { Vec::new() };
+    diagnosis(subject, asked, &also)
 }
 
 /// The launches of which a diagnosis is made: of coins, and of other bodies.
@@ -272,8 +280,9 @@ fn diagnosis(subject: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Dia
         .or_else(|| split(&asked));
     let unknown = || {
         let (wrong, all, known) = (wrong.len(), asked.len(), HYPOTHESES.len());
-        let words =
-            format!("wrong in {wrong} of {all} launches, for a reason that none of the {known} known mistakes explains");
+        let words = format!(
+            "wrong in {wrong} of {all} launches, for a reason that none of the {known} known mistakes explains"
+        );
         Cause::unexplained(words, &asked)
     };
     let Cause { words, explains } = cause.unwrap_or_else(unknown);
@@ -343,8 +352,7 @@ fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
         let explains: Vec<_> = on.par_iter().map(|one| one.is_explained(hypothesis)).collect();
         count(&explains) as f64 / explains.iter().flatten().count().max(on.len().div_ceil(2)) as f64
     };
-    let explains =
-        |hypothesis: &&Hypothesis| share(hypothesis, &few) > 0.75 && share(hypothesis, &wrong) >= EXPLAINED;
+    let explains = |hypothesis: &&Hypothesis| share(hypothesis, &few) > 0.75 && share(hypothesis, &wrong) >= EXPLAINED;
     let scored = HYPOTHESES.iter().filter(explains).map(|hypothesis| (share(hypothesis, &answered), hypothesis));
     let scored = scored.filter(|(of_answered, _)| *of_answered >= EXPLAINED);
     let scored = scored.map(|(of_answered, hypothesis)| ([of_answered, share(hypothesis, &also)], hypothesis));

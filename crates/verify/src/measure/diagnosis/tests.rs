@@ -217,10 +217,11 @@ fn each_mistake_with_three_moments_is_found_and_named() {
         ("its ωy' = (i3 - i1)/i2 ωz ωx has the opposite sign", |row| multiplied(row, [1.0, -1.0, 1.0])),
         ("its ωz' = (i1 - i2)/i3 ωx ωy has the opposite sign", |row| multiplied(row, [1.0, 1.0, -1.0])),
         ("ωz' = (i1 - i2)/i3 ωx ωy is added, which it leaves out", |row| multiplied(row, [1.0, 1.0, 0.0])),
-        ("its Euler's equations are divided by i1, i2 and i3: ", |row| {
-            flown(row, moments(row), |[a, b, c], rate| products(rate, [b - c, c - a, a - b]))
+        // The motion of a coin by such equations.
+        ("each of its Euler's equations is divided by its moment", |row| {
+            right(&Row { i1: 1.0, i3: 1.0 - (row.i1 - row.i3), ..*row })
         }),
-        ("its Euler's equations are divided by i1, i2 and i3 instead of by i1", |row| {
+        ("its Euler's equations for y and z are divided by i2 and i3 instead of by i1", |row| {
             flown(row, moments(row), |[a, b, c], rate| products(rate, [(b - c) / a, (c - a) / a, (a - b) / a]))
         }),
         ("its rate, or its time, is reversed", |row| {
