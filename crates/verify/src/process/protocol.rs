@@ -180,7 +180,11 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
     for (part, text) in landing.quaternion.iter_mut().zip([w, x, y, z]) {
         *part = number_in(text)?;
     }
-    for field in fields {
+    for (index, field) in fields.iter().enumerate() {
+        let name = field.split_once('=').map(|(name, _)| name);
+        if fields[..index].iter().any(|other| other.split_once('=').map(|(name, _)| name) == name) {
+            return Err(format!("a second '{field}'"));
+        }
         match field.split_once('=') {
             Some(("error", text)) => landing.error = Some(number_in(text)?),
             Some(("calls", text)) => {
@@ -296,6 +300,7 @@ mod tests {
             ("7,0.5,0.5,0.5,0.5,rate=1;2", "rate=1;2 where rate=X;Y;Z"),
             ("7,0.5,0.5,0.5,0.5,rate=1;2;c", "'c' is no number"),
             ("7,0.5,0.5,0.5,0.5,calls=-1", "'-1' is no number of calls"),
+            ("7,0.5,0.5,0.5,0.5,calls=1,error=1e-9,calls=2", "a second 'calls=2'"),
             (HEADER, "it begins with 'id'"),
         ] {
             let error = answer(line, 7).unwrap_err();

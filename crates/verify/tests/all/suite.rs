@@ -195,7 +195,7 @@ impl Solver for Exchanged {
         let Some([i1, i2, i3]) = toss.body.moments() else {
             return Err(SolveError::NotSymmetric { solver: "exchanged".to_owned(), why: "it takes moments alone" });
         };
-        let body = Body::from_moments([i2, i1, i3])?;
+        let body = Body::from_moments([i2, i1, i3]).map_err(|error| SolveError::failed("exchanged", error))?;
         Ok(ExactSolver.land(&Toss { body, ..*toss })?.with_error(1e-12))
     }
 }
