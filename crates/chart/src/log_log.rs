@@ -43,7 +43,7 @@ pub struct Series {
 }
 
 /// Draws `series` over the axes `x` and `y` on `panel`, and leaves `right` pixels free beside them. Returns a label for each
-/// line that has a point, at the height of its last.
+/// line that has a name and a point, at the height of its last.
 pub fn log_log(
     panel: &Panel<'_>,
     title: &str,
@@ -80,7 +80,9 @@ fn draw_line<'b>(
         let (column, top) = pixel(panel, chart, (x.position(*failed), y.span().end));
         panel.draw(&Cross::new((column, top + 14), 9, line.colour.stroke_width(4)))?;
     }
-    Ok(pixels.last().map(|end| EndLabel { y: end.1, text: line.label.clone(), colour: line.colour }))
+    // A line without a name takes no room beside the others.
+    let end = pixels.last().filter(|_| !line.label.is_empty());
+    Ok(end.map(|end| EndLabel { y: end.1, text: line.label.clone(), colour: line.colour }))
 }
 
 fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBColor) -> Drawn {

@@ -258,6 +258,7 @@ fn measure(suite: &Suite) -> anyhow::Result<Report> {
             progress.set_message(check.id);
         }
         Progress::Ended(rows, timing) => progress.suspend(|| files::say(&text::ended(rows, timing))),
+        Progress::Wrong(found) => progress.suspend(|| files::say(&diagnosis::early(found))),
     })?;
     progress.finish_and_clear();
     Ok(report)

@@ -15,17 +15,16 @@ use std::time::Duration;
 
 use dynamics::error::{Reason, require};
 use dynamics::{Fault, Flight, ForeignError, Phases};
-use rayon::prelude::*;
 use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
-use crate::measure::diagnosis::{self, Asked, Diagnosis, NORMS, TOLERANCES, cos_tilt_as_answered};
-use crate::measure::reference::Reference;
+use crate::measure::diagnosis::{Asked, NORMS, cos_tilt_as_answered};
 use crate::measure::run::Allowance;
 use pool::{Exchange, Pool};
-use protocol::{Landed, Question};
+use protocol::Landed;
 
 pub use pool::Tally;
 pub use protocol::HEADER;
+pub(crate) use protocol::Question;
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
@@ -176,35 +175,24 @@ impl Running {
         self.pool.tally()
     }
 
-    /// What the program most likely does wrong, by its answers to [launches of every kind](diagnosis::launches).
-    pub(crate) fn diagnosis(&self, subject: &str) -> Option<Diagnosis> {
-        let launches = diagnosis::launches().ok()?;
-        let asked = |by: f64| launches.par_iter().filter_map(|toss| self.asked(toss, by)).collect();
-        TOLERANCES.iter().find_map(|by| diagnosis::diagnosis(subject, asked(*by)))
-    }
-
     /// What the program answers to `toss` at a tolerance, with its question as it got it, and what it is allowed.
     pub(crate) fn asked(&self, toss: &Toss, tolerance: f64) -> Option<Asked> {
         let stepping = Stepping::adaptive(OWN, tolerance).ok()?;
         let solver = ByProgram { running: self.clone(), stepping };
+        if toss.coin().is_none() && !solver.takes_bodies() {
+            return None;
+        }
         let (question, exchange) = solver.exchange(toss).ok()?;
         let answered = exchange.reply.as_ref().ok();
         let allowed = match answered {
             Some(landed) => Allowance::by_estimate(solver.error(toss, &question, landed).ok()??),
             None => Allowance::by_estimate(0.0),
         };
-        Some(Asked {
-            toss: *toss,
-            question: format!("{HEADER}\n{}", exchange.question),
-            unit: question.unit(),
-            line: exchange.line,
-            answer: exchange.reply.and_then(|landed| match landed.quaternion {
-                finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
-                _ => Err("answered a quaternion that is not finite".to_owned()),
-            }),
-            allowed,
-            exact: Reference::of(toss).ok()?,
-        })
+        let answer = exchange.reply.and_then(|landed| match landed.quaternion {
+            finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
+            _ => Err("answered a quaternion that is not finite".to_owned()),
+        });
+        Asked::new(toss, format!("{HEADER}\n{}", exchange.question), &question, exchange.line, answer, allowed)
     }
 }
 

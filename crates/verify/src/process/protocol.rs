@@ -10,6 +10,8 @@ use numerics::DoubleDouble;
 use numerics::scale::power_of_two_scale;
 use toss::{Attitude, State, Toss, Vector3};
 
+use crate::measure::diagnosis::Numbers;
+
 /// The names of the columns of a question, which are the first line that a program reads: the number of the question;
 /// the moments of inertia about z and x; the body rate (BF); the unit quaternion of the attitude at launch (from BF to
 /// LF); the time of flight; the tolerance; the moment about y. A program that reads columns by their names may be given
@@ -42,7 +44,7 @@ pub(super) struct Landed {
 
 /// Where a toss lands, in the axes and the units in which a program is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Question {
+pub(crate) struct Question {
     /// I1, I2, I3 in a unit that is a power of two (kg m²), so that their ratios keep every digit.
     moments: [f64; 3],
     /// ω in `unit`.
@@ -60,7 +62,7 @@ pub(super) struct Question {
 impl Question {
     /// The question where `toss`, whose dimensionless form is `flight`, lands by steps of this `tolerance`, absolute and
     /// relative, at rates of the size of 1.
-    pub(super) fn new(toss: &Toss, flight: &Flight, tolerance: f64) -> Self {
+    pub(crate) fn new(toss: &Toss, flight: &Flight, tolerance: f64) -> Self {
         let (largest, seconds) = (toss.launch.rate().amax(), toss.launch.flight_time());
         let scale = power_of_two_scale(largest);
         // Rates below 1 are to be as accurate relative to their size.
@@ -90,9 +92,14 @@ impl Question {
         numbers.map(|number| format!("{number:?}")).join(",")
     }
 
-    /// The unit of the rates (rad/s).
-    pub(super) fn unit(&self) -> f64 {
-        self.unit
+    /// What is asked, for a diagnosis.
+    pub(crate) fn numbers(&self) -> Numbers {
+        Numbers::new(self.moments, self.rate.into(), self.time, self.attitude.components())
+    }
+
+    /// From the axes of the question to BF.
+    pub(crate) fn axes(&self) -> Attitude {
+        self.axes.unwrap_or(Attitude::IDENTITY)
     }
 
     /// Whether the attitude and the moments are those of the question only to rounding.
@@ -101,7 +108,7 @@ impl Question {
     }
 
     /// The components of an answered quaternion, which leads from BF to LF.
-    pub(super) fn in_body(&self, quaternion: [f64; 4]) -> [f64; 4] {
+    pub(crate) fn in_body(&self, quaternion: [f64; 4]) -> [f64; 4] {
         match self.axes {
             None => quaternion,
             Some(axes) => {
@@ -173,7 +180,11 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
     for (part, text) in landing.quaternion.iter_mut().zip([w, x, y, z]) {
         *part = number_in(text)?;
     }
-    for field in fields {
+    for (index, field) in fields.iter().enumerate() {
+        let name = field.split_once('=').map(|(name, _)| name);
+        if fields[..index].iter().any(|other| other.split_once('=').map(|(name, _)| name) == name) {
+            return Err(format!("a second '{field}'"));
+        }
         match field.split_once('=') {
             Some(("error", text)) => landing.error = Some(number_in(text)?),
             Some(("calls", text)) => {
@@ -289,6 +300,7 @@ mod tests {
             ("7,0.5,0.5,0.5,0.5,rate=1;2", "rate=1;2 where rate=X;Y;Z"),
             ("7,0.5,0.5,0.5,0.5,rate=1;2;c", "'c' is no number"),
             ("7,0.5,0.5,0.5,0.5,calls=-1", "'-1' is no number of calls"),
+            ("7,0.5,0.5,0.5,0.5,calls=1,error=1e-9,calls=2", "a second 'calls=2'"),
             (HEADER, "it begins with 'id'"),
         ] {
             let error = answer(line, 7).unwrap_err();

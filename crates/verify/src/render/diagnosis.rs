@@ -8,7 +8,7 @@ use crate::judge::Row;
 use crate::measure::diagnosis::{Diagnosis, Example};
 use crate::process::Tally;
 
-/// A sentence for each solver, with the smallest failing question where no cause explains all of them, and how a program
+/// A sentence for each solver, with the smallest question that is left where no cause explains all of them, and how a program
 /// was asked if not all of its launches have an answer.
 pub(crate) fn paragraph(report: &Report) -> String {
     let lines = report.diagnoses.iter().map(of_one).collect::<String>();
@@ -21,8 +21,13 @@ fn of_one(found: &Diagnosis) -> String {
     if found.explains_all {
         format!("{sentence}\n")
     } else {
-        format!("{sentence}\nThe smallest question that fails:\n{}", example(&found.example))
+        format!("{sentence}\nThe smallest question that this does not explain:\n{}", example(&found.example))
     }
+}
+
+/// What is said before the checks begin.
+pub(crate) fn early(found: &Diagnosis) -> String {
+    of_one(found) + "The checks go on; interrupt them if this is enough.\n"
 }
 
 /// The solver with its likeliest cause.

@@ -113,7 +113,8 @@ pub(super) struct Reached {
     pub(super) subject: String,
     /// Its run with the smallest error.
     pub(super) finest: Cost,
-    /// Its cheapest run within [`ENOUGH`]; `None` if there is none.
+    /// What an error of [`ENOUGH`] costs: between its runs to either side of it, or by its cheapest run within; `None` if
+    /// there is none within.
     pub(super) enough: Option<Cost>,
 }
 
@@ -267,14 +268,31 @@ impl Report {
             };
             let runs: Vec<Cost> = sweep.series(problem, &subject).filter_map(cost).collect();
             let finest = *runs.iter().min_by(|a, b| a.error.total_cmp(&b.error))?;
-            let within = runs.iter().filter(|run| run.error <= ENOUGH);
-            let enough = within.min_by(|a, b| a.microseconds.total_cmp(&b.microseconds)).copied();
-            Some(Reached { subject, finest, enough })
+            Some(Reached { subject, finest, enough: enough(&runs) })
         };
         let mut all: Vec<Reached> = sweep.subjects().into_iter().filter_map(reached).collect();
         all.sort_by(|a, b| a.finest.error.total_cmp(&b.finest.error));
         all
     }
+}
+
+/// What an error of [`ENOUGH`] costs by these runs.
+fn enough(runs: &[Cost]) -> Option<Cost> {
+    let (within, beyond): (Vec<&Cost>, Vec<&Cost>) = runs.iter().partition(|run| run.error <= ENOUGH);
+    let fine = within.into_iter().min_by(|a, b| a.microseconds.total_cmp(&b.microseconds))?;
+    let coarse = beyond.into_iter().min_by(|a, b| a.error.total_cmp(&b.error));
+    // On a scale of powers, as the chart is. A run may be exact.
+    let part = |coarse: &Cost| (coarse.error / ENOUGH).ln() / (coarse.error / fine.error.max(f64::MIN_POSITIVE)).ln();
+    let cheaper = coarse.filter(|coarse| coarse.calls <= fine.calls && coarse.microseconds <= fine.microseconds);
+    Some(cheaper.map_or(*fine, |coarse| {
+        let part = part(coarse);
+        let between = |coarse: f64, fine: f64| coarse.powf(1.0 - part) * fine.powf(part);
+        Cost {
+            error: ENOUGH,
+            calls: between(coarse.calls, fine.calls),
+            microseconds: between(coarse.microseconds, fine.microseconds),
+        }
+    }))
 }
 
 impl Cost {
@@ -283,5 +301,24 @@ impl Cost {
         let calls = if self.calls > 0.0 { format!("{:.0}", self.calls) } else { "–".to_owned() };
         let time = Nanoseconds(1e3 * self.microseconds).to_string();
         [format!("{:.1e} rad", self.error), calls, time]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs at tolerances that are far apart would else make two solvers of one cost differ by what a step between them costs.
+    #[test]
+    fn the_cost_of_an_error_is_that_between_two_runs() {
+        let run = |error, calls| Cost { error, calls, microseconds: 2.0 * calls };
+        let cost = |runs: &[Cost]| enough(runs).map(|cost| (cost.calls * 1e6).round() / 1e6);
+        assert_eq!(cost(&[run(1e-5, 50.0), run(1e-7, 100.0), run(1e-11, 400.0)]), Some(200.0));
+        assert_eq!(cost(&[run(1e-7, 100.0), run(1e-9, 150.0), run(1e-11, 400.0)]), Some(150.0));
+        assert_eq!(cost(&[run(1e-11, 400.0), run(1e-12, 500.0)]), Some(400.0));
+        // An error that does not fall with the cost has nothing between.
+        assert_eq!(cost(&[run(1e-7, 500.0), run(1e-11, 400.0)]), Some(400.0));
+        assert_eq!(cost(&[run(1e-7, 0.0), run(0.0, 0.0)]), Some(0.0));
+        assert_eq!(cost(&[run(1e-7, 100.0)]), None);
     }
 }

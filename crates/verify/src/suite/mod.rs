@@ -66,6 +66,8 @@ pub(crate) enum Progress<'a> {
     Begins(&'a Check, usize),
     /// A check has ended with these rows, and took this time.
     Ended(&'a [Row], &'a Timing),
+    /// The program is wrong, before any check.
+    Wrong(&'a Diagnosis),
 }
 
 impl Suite {
@@ -208,6 +210,7 @@ impl Suite {
         let baseline = Baseline::read(&path)?.map(|baseline| baseline.worse_above(ratio));
         let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
         let (checks, mut left_out) = self.checks()?;
+        self.wrong_program(&context)?.iter().for_each(|found| show(Progress::Wrong(found)));
         let (mut rows, timings) = self.measure(&checks, &context, &limits, show)?;
         let is_complete = self.only.is_none() && timings.len() == checks.len();
         let unused = match is_complete {
@@ -227,9 +230,18 @@ impl Suite {
         let found = Baseline::of(&rows, context.sweep.found());
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
         let compared = Compared { file: shown(&path.display().to_string()), found: baseline.is_some(), written: false };
-        let diagnoses = self.diagnoses(&context, &rows)?;
+        // A solver that never ended a check would not end a diagnosis, either.
+        let has_ended = timings.len() == checks.len();
+        let diagnoses = if has_ended { self.diagnoses(&context, &rows)? } else { Vec::new() };
         let asked = self.program().map(Running::tally);
         Ok(Report::new(context, rows, timings, compared, moves, left_out).with_diagnoses(diagnoses, asked))
+    }
+
+    /// What the program most likely does wrong, if a few launches show that it is wrong: one that is slow would else be told
+    /// after minutes.
+    fn wrong_program(&self, context: &Context) -> anyhow::Result<Option<Diagnosis>> {
+        let (Some(program), Some(subject)) = (&self.program, context.subjects.first()) else { return Ok(None) };
+        diagnosis::of_wrong_solver(&subject.name, &|toss, by| program.asked(toss, by))
     }
 
     /// What solvers with failing rows most likely do wrong.
@@ -240,8 +252,8 @@ impl Suite {
         };
         if let Some(program) = &self.program {
             let subject = context.subjects.iter().map(|subject| &subject.name).find(|subject| fails(subject));
-            let asked = || program.diagnosis(subject?);
-            return Ok(asked().into_iter().collect());
+            let found = subject.map(|subject| diagnosis::of_solver(subject, &|toss, by| program.asked(toss, by)));
+            return Ok(found.transpose()?.flatten().into_iter().collect());
         }
         let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails));
         Ok(of_entries.collect::<anyhow::Result<Vec<_>>>()?.concat())

@@ -64,6 +64,9 @@ fn the_first_lines_name_the_likeliest_cause() {
     let out = tempfile::tempdir().expect("a folder");
     let (text, code) = verify_into(&["--quick", "--only", "random-cos-tilt", "--command", &still], out.path());
     assert!(code == Some(1) && text.contains(&format!("\n{cause}\nFails: command")), "{code:?}, {text}");
+    // It is said before the checks, too.
+    let early = text.find("launch: 143 of 143.\nThe checks go on; interrupt them if this is enough.\n").expect(&text);
+    assert!(text[early..].contains("\nrandom-cos-tilt  "), "{text}");
     for file in ["report.html", "junit.xml", "summary.md"] {
         let report = std::fs::read_to_string(out.path().join(file)).expect(file);
         assert!(report.contains(cause), "{file}: {report}");

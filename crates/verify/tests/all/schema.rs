@@ -14,9 +14,7 @@ use verify::judge::baseline::Baseline;
 use verify::judge::limits::Limits;
 use verify::judge::time::Timing;
 use verify::judge::unused_limits;
-use verify::measure::diagnosis::{self, Asked, diagnosis};
-use verify::measure::reference::Reference;
-use verify::measure::run::Allowance;
+use verify::measure::diagnosis::{Diagnosis, Example};
 use verify::process::Tally;
 use verify::render::report::Compared;
 use verify::{CHECKS, Check, Context, Effort, LeftOut, Report, Row, judge};
@@ -177,16 +175,16 @@ fn report() -> Value {
     let compared = Compared { file: "quick.csv".to_owned(), found: true, written: false };
     let (timings, left_out) =
         (vec![timing(Some(51.0)), timing(None)], vec![LeftOut { check: CHECKS[0].id, why: "a test" }]);
-    let asked = diagnosis::launches().expect("launches").into_iter().take(3).map(|toss| Asked {
-        toss,
-        question: String::new(),
-        unit: 1.0,
-        line: None,
-        answer: Err("is silent".to_owned()),
-        allowed: Allowance { cos_tilt: 1e-9, attitude: 1e-8 },
-        exact: Reference::of(&toss).expect("a reference"),
-    });
-    let found = diagnosis("refuses", asked.collect()).expect("a cause");
+    let example = Example { question: "1".to_owned(), answer: "none".to_owned(), expected: "2".to_owned() };
+    let found = Diagnosis {
+        subject: "refuses".to_owned(),
+        cause: "no answer".to_owned(),
+        explains_all: true,
+        launches: 3,
+        right: 0,
+        without_answer: 3,
+        example,
+    };
     let report = Report::new(Arc::new(context), rows, timings, compared, moves, left_out);
     let report = report.with_diagnoses(vec![found], Some(Tally::default()));
     serde_json::from_str(&report.json().expect("JSON")).expect("JSON")

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use toss::Registry;
+use toss::{Attitude, Body, ExactSolver, Landing, Registry, Scheme, SolveError, Solver, SolverEntry, Toss, Vector3};
 use verify::judge::baseline;
 use verify::judge::limits::Limits;
 use verify::{CHECKS, Effort, Judges, Report, Row, Status, Suite, Verdict};
@@ -138,4 +138,64 @@ fn an_interrupted_run_goes_on_with_what_the_same_program_has_kept() {
     std::fs::write(&file, "no = 1").unwrap();
     let error = format!("{:#}", run().err().expect("a file that is none"));
     assert!(error.contains("reference-cos-tilt.toml: remove it, to measure reference-cos-tilt again"), "{error}");
+}
+
+/// A wrong function, a rough stepper and a wrong solver of bodies are told what a program is told.
+#[test]
+fn wrong_solvers_in_rust_get_a_diagnosis() {
+    let reversed = SolverEntry::from_attitude(
+        "reversed",
+        "",
+        |_| 1e-12,
+        |toss| {
+            let k = toss.coin.inertia_ratio();
+            let (rate, time) = (toss.launch.rate(), toss.launch.flight_time());
+            let momentum = Vector3::new(rate.x, rate.y, k * rate.z) * time;
+            let half = 0.5 * momentum.norm();
+            let axis = momentum.try_normalize(0.0).unwrap_or(Vector3::z());
+            let turn = Attitude::about_unit_axis(&axis, half.sin_cos());
+            Ok(toss.launch.attitude() * turn * Attitude::about_z((k - 1.0) * rate.z * time))
+        },
+    );
+    let rough = SolverEntry::from_stepper("rough", "", &[Scheme::DOP853], |system, _| {
+        let steps = (50.0 * system.duration()).ceil().clamp(1.0, 1e5);
+        let (mut y, step) = (system.start(), system.duration() / steps);
+        for _ in 0..steps as u64 {
+            let slope = system.derivative(&y);
+            let middle = std::array::from_fn(|i| y[i] + 0.5 * step * slope[i]);
+            let slope = system.derivative(&middle);
+            y = std::array::from_fn(|i| y[i] + step * slope[i]);
+        }
+        Ok((y, system.work(steps as u64, 0)))
+    });
+    let exchanged = SolverEntry::new("exchanged", "", |_| Box::new(Exchanged));
+    for (entry, check, cause) in [
+        (reversed, "any-launch", "reversed: right if its spin about n is reversed: 1000 of 1000."),
+        (rough, "any-launch", "rough/dop853: right up to a tolerance of about "),
+        (exchanged, "bodies-within-estimate", "exchanged: right if i1 and i2 are exchanged: 884 of 884."),
+    ] {
+        let suite = Suite::new(Registry::empty().with(entry).expect("a name")).effort(Effort::Quick).only(check);
+        let report = suite.run().expect("a report");
+        let page = tempfile::tempdir().expect("a folder");
+        report.write(page.path()).expect("written");
+        let summary = std::fs::read_to_string(page.path().join("summary.md")).expect("a summary");
+        assert!(!report.passed && summary.contains(cause), "{summary}");
+    }
+}
+
+/// It takes i1 for i2, and refuses tensors.
+struct Exchanged;
+
+impl Solver for Exchanged {
+    fn name(&self) -> &str {
+        "exchanged"
+    }
+
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let Some([i1, i2, i3]) = toss.body.moments() else {
+            return Err(SolveError::NotSymmetric { solver: "exchanged".to_owned(), why: "it takes moments alone" });
+        };
+        let body = Body::from_moments([i2, i1, i3]).map_err(|error| SolveError::failed("exchanged", error))?;
+        Ok(ExactSolver.land(&Toss { body, ..*toss })?.with_error(1e-12))
+    }
 }

@@ -4,51 +4,143 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dynamics::Toss;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use dynamics::body::principal_acceleration;
+use dynamics::integrate::{OdeSystem, integrate};
+use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
+use numerics::scale::power_of_two_scale;
+use toss::{Attitude, Scheme, Stepping};
 
-/// The numbers of a question about a coin.
+use crate::measure::reference::Reference;
+
+/// The tolerance of a flight by numbers that are those of no coin.
+const TOLERANCE: f64 = 1e-11;
+
+/// A body turns at most √3 times as fast as at its launch. By wrong equations, rates may grow without end, and with them the
+/// rounding errors of whoever integrates them: above so many times that at launch a landing says nothing.
+const FASTEST: f64 = 10.0;
+
+/// The numbers of a question, in its units and along principal axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Numbers {
-    pub(super) i1: f64,
-    /// k = I3/I1.
-    pub(super) k: f64,
+pub(crate) struct Numbers {
+    /// About x, y and z.
+    pub(super) moments: [f64; 3],
+    /// (I2 - I3)/I1 and so on in cycles, by which Euler's equations multiply the products of two rates.
+    pub(super) couplings: [f64; 3],
     pub(super) rate: [f64; 3],
     pub(super) time: f64,
     pub(super) attitude: [f64; 4],
 }
 
 impl Numbers {
-    pub(super) fn of(toss: &Toss) -> Option<Self> {
-        let coin = toss.coin()?.coin;
-        let launch = &toss.launch;
-        let (rate, attitude) = (launch.rate().into(), launch.attitude().components());
-        Some(Self { i1: coin.i1(), k: coin.inertia_ratio(), rate, time: launch.flight_time(), attitude })
+    pub(crate) fn new(moments: [f64; 3], rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
+        Self { moments, couplings: [0.0; 3], rate, time, attitude }.with_moments(moments)
+    }
+
+    /// k = I3/I1.
+    pub(super) fn k(&self) -> f64 {
+        self.moments[2] / self.moments[0]
+    }
+
+    /// The least moment divided by the largest.
+    pub(super) fn thinness(&self) -> f64 {
+        let [least, _, largest] = self.sorted();
+        least / largest
+    }
+
+    /// 2 T I2/S² with the energy T, the angular momentum S and the moment I2 in the middle: 1 on the separatrix, above it
+    /// about the axis of the least moment, below about that of the largest.
+    pub(super) fn side_of_the_separatrix(&self) -> f64 {
+        let (moments, rate) = (Vector3::from(self.moments), Vector3::from(self.rate));
+        let momentum = moments.component_mul(&rate);
+        momentum.dot(&rate) * self.sorted()[1] / momentum.norm_squared()
+    }
+
+    fn sorted(&self) -> [f64; 3] {
+        let mut sorted = self.moments;
+        sorted.sort_by(f64::total_cmp);
+        sorted
+    }
+
+    /// The angle (rad) from where these numbers land to `answer`; `None` where they have no landing.
+    pub(super) fn angle_to(&self, answer: &Attitude) -> Option<f64> {
+        let Self { couplings: [a, b, c], rate, time, attitude, .. } = *self;
+        let given = [a, b, c, rate[0], rate[1], rate[2], time];
+        if !given.iter().all(|number| number.is_finite()) {
+            return None;
+        }
+        // Flights of coins are long, and by the reference they need no steps.
+        if c == 0.0 && a == -b {
+            return Some(Reference::of_numbers(1.0 - a, rate, time, attitude).attitude_error(answer));
+        }
+        let scale = power_of_two_scale(Vector3::from(rate).amax());
+        let ([w, x, y, z], [p, q, r]) = (attitude, rate.map(|part| part / scale));
+        let stepping = Stepping::adaptive(Scheme::DOP853, TOLERANCE).ok()?;
+        let flown = Flown { couplings: self.couplings, fastest: FASTEST * Vector3::new(p, q, r).norm() };
+        let (landed, _) = integrate(&flown, SVector::from([w, x, y, z, p, q, r]), time, scale, &stepping).ok()?;
+        let [w, x, y, z, p, q, r] = landed.data.0[0];
+        let has_landing = Vector3::new(p, q, r).norm() <= flown.fastest;
+        Some(Attitude::from_components([w, x, y, z]).ok()?.angle_to(answer)).filter(|_| has_landing)
+    }
+
+    fn with_moments(self, moments: [f64; 3]) -> Self {
+        let [a, b, c] = moments;
+        // No torque acts about the axis of a rod.
+        let part = |torque: f64, moment: f64| if torque == 0.0 { 0.0 } else { torque / moment };
+        Self { moments, couplings: [part(b - c, a), part(c - a, b), part(a - b, c)], ..self }
+    }
+
+    /// With the moments `which` of its own about x, y and z.
+    fn by_moments(self, which: [usize; 3]) -> Self {
+        self.with_moments(which.map(|axis| self.moments[axis]))
+    }
+
+    /// With each of Euler's equations multiplied by a number.
+    fn with_torques(self, times: [f64; 3]) -> Self {
+        Self { couplings: [0, 1, 2].map(|axis| times[axis] * self.couplings[axis]), ..self }
     }
 
     fn with_rate(self, by: f64) -> Self {
         Self { rate: self.rate.map(|part| part * by), ..self }
     }
 
-    /// The angular momentum divided by I1.
+    /// The angular momentum of a coin divided by I1.
     fn momentum(&self) -> Vector3<f64> {
         let [x, y, z] = self.rate;
-        Vector3::new(x, y, self.k * z)
+        Vector3::new(x, y, self.k() * z)
     }
 
-    /// The turn by the precession about the angular momentum (BF at launch).
+    /// The turn of a coin by the precession about the angular momentum (BF at launch).
     fn precession(&self) -> Quaternion<f64> {
         UnitQuaternion::from_scaled_axis(self.momentum() * self.time).into_inner()
     }
 
-    /// The turn about n by `times` its angle.
+    /// The turn of a coin about n by `times` its angle.
     fn spin(&self, times: f64) -> Quaternion<f64> {
-        let angle = times * (1.0 - self.k) * self.rate[2] * self.time;
+        let angle = times * (1.0 - self.k()) * self.rate[2] * self.time;
         UnitQuaternion::from_scaled_axis(Vector3::z() * angle).into_inner()
     }
 
     fn launched(&self) -> Quaternion<f64> {
         quaternion(self.attitude)
+    }
+}
+
+/// Q' = ½ Q ω and Euler's equations with any couplings. A rate that grows beyond `fastest` is not followed.
+struct Flown {
+    couplings: [f64; 3],
+    fastest: f64,
+}
+
+impl OdeSystem<7> for Flown {
+    fn derivative(&self, y: &SVector<f64, 7>) -> SVector<f64, 7> {
+        let &[w, x, y, z, p, q, r] = &y.data.0[0];
+        if Vector3::new(p, q, r).norm() > self.fastest {
+            return SVector::zeros();
+        }
+        let turned = quaternion([w, x, y, z]) * Quaternion::new(0.0, p, q, r) * 0.5;
+        let [w, x, y, z] = components(turned);
+        let [p, q, r] = principal_acceleration(self.couplings, [p, q, r]);
+        SVector::from([w, x, y, z, p, q, r])
     }
 }
 
@@ -75,7 +167,7 @@ impl Hypothesis {
 }
 
 /// All hypotheses. Of two that explain the same answers, the first is told.
-pub(super) const HYPOTHESES: [Hypothesis; 36] = [
+pub(super) const HYPOTHESES: [Hypothesis; 50] = [
     Hypothesis::of_answer("its quaternion is read as x,y,z,w", |_, answer| scalar_first(answer)),
     Hypothesis::of_answer("its quaternion is conjugated, so that it leads from BF to LF", |_, answer| {
         conjugated(answer)
@@ -104,9 +196,8 @@ pub(super) const HYPOTHESES: [Hypothesis; 36] = [
         let launched = UnitQuaternion::new_normalize(numbers.launched());
         Numbers { rate: launched.transform_vector(&numbers.rate.into()).into(), ..numbers }
     }),
-    Hypothesis::of_question("its Q' = ½ ω Q is written Q' = ½ Q ω", |numbers| Numbers {
-        k: 2.0 - numbers.k,
-        ..as_conjugated(numbers.with_rate(-1.0))
+    Hypothesis::of_question("its Q' = ½ ω Q is written Q' = ½ Q ω", |numbers| {
+        as_conjugated(numbers.with_rate(-1.0)).with_torques([-1.0; 3])
     })
     .read_as(|_, answer| conjugated(answer)),
     Hypothesis::of_question("the attitude at launch is 1,0,0,0: it answers the turn since launch", |numbers| Numbers {
@@ -148,15 +239,42 @@ pub(super) const HYPOTHESES: [Hypothesis; 36] = [
     Hypothesis::of_question("all its angles are doubled: it turns by half the angle", |numbers| numbers.with_rate(0.5)),
     Hypothesis::of_question("its Q' = Q ω is halved to Q' = ½ Q ω", |numbers| with_kinematics(numbers, 2.0)),
     Hypothesis::of_question("its Q' = ¼ Q ω is doubled to Q' = ½ Q ω", |numbers| with_kinematics(numbers, 0.5)),
-    Hypothesis::of_question("i1 and i3 are exchanged", |numbers| Numbers { k: 1.0 / numbers.k, ..numbers }),
-    Hypothesis::of_question("i1 is 1: it takes i3 for i3/i1", |numbers| Numbers {
-        k: numbers.k * numbers.i1,
-        ..numbers
+    Hypothesis::of_question("i1 and i3 are exchanged", |numbers| numbers.by_moments([2, 2, 0])),
+    Hypothesis::of_question("i1 is 1: it takes i3 for i3/i1", |numbers| {
+        numbers.with_moments([1.0, 1.0, numbers.moments[2]])
     }),
-    Hypothesis::of_question("i1 equals i3: it ignores the moments", |numbers| Numbers { k: 1.0, ..numbers }),
-    Hypothesis::of_question("Euler's equations have the opposite sign, ω' = I⁻¹ (ω × I ω)", |numbers| Numbers {
-        k: 2.0 - numbers.k,
-        ..numbers
+    Hypothesis::of_question("all moments are equal: it ignores them", |numbers| numbers.with_moments([1.0; 3])),
+    Hypothesis::of_question("i2 equals i1: it ignores i2", |numbers| numbers.by_moments([0, 0, 2])),
+    Hypothesis::of_question("i1 equals i2: it takes i2 for both", |numbers| numbers.by_moments([1, 1, 2])),
+    Hypothesis::of_question("i1 and i2 are their mean: it takes any body for a coin", |numbers| {
+        let [i1, i2, i3] = numbers.moments;
+        numbers.with_moments([0.5 * (i1 + i2), 0.5 * (i1 + i2), i3])
+    }),
+    Hypothesis::of_question("i1 and i2 are exchanged", |numbers| numbers.by_moments([1, 0, 2])),
+    Hypothesis::of_question("i2 and i3 are exchanged", |numbers| numbers.by_moments([0, 2, 1])),
+    Hypothesis::of_question("i1 and i3 are exchanged beside i2", |numbers| numbers.by_moments([2, 1, 0])),
+    Hypothesis::of_question("i2, i3, i1 stand for i1, i2, i3", |numbers| numbers.by_moments([1, 2, 0])),
+    Hypothesis::of_question("i3, i1, i2 stand for i1, i2, i3", |numbers| numbers.by_moments([2, 0, 1])),
+    Hypothesis::of_question("Euler's equations have the opposite sign, ω' = I⁻¹ (ω × I ω)", |numbers| {
+        numbers.with_torques([-1.0; 3])
+    }),
+    Hypothesis::of_question("its ωx' = (i2 - i3)/i1 ωy ωz has the opposite sign", |numbers| {
+        numbers.with_torques([-1.0, 1.0, 1.0])
+    }),
+    Hypothesis::of_question("its ωy' = (i3 - i1)/i2 ωz ωx has the opposite sign", |numbers| {
+        numbers.with_torques([1.0, -1.0, 1.0])
+    }),
+    Hypothesis::of_question("its ωz' = (i1 - i2)/i3 ωx ωy has the opposite sign", |numbers| {
+        numbers.with_torques([1.0, 1.0, -1.0])
+    }),
+    Hypothesis::of_question("ωz' = (i1 - i2)/i3 ωx ωy is added, which it leaves out", |numbers| {
+        numbers.with_torques([1.0, 1.0, 0.0])
+    }),
+    Hypothesis::of_question("each of its Euler's equations is divided by its moment", |numbers| {
+        numbers.with_torques(numbers.moments)
+    }),
+    Hypothesis::of_question("its Euler's equations for y and z are divided by i2 and i3 instead of by i1", |numbers| {
+        numbers.with_torques(numbers.moments.map(|moment| moment / numbers.moments[0]))
     }),
     Hypothesis::of_question("the rate is divided by its length, or the time is taken for the angle", |numbers| {
         numbers.with_rate(1.0 / Vector3::from(numbers.rate).norm())
@@ -171,9 +289,9 @@ pub(super) const HYPOTHESES: [Hypothesis; 36] = [
     }),
 ];
 
-/// A coin whose attitude turns by `times` its rate, while Euler's equations move that rate as ever.
+/// A body whose attitude turns by `times` its rate, while Euler's equations move that rate as ever.
 fn with_kinematics(numbers: Numbers, times: f64) -> Numbers {
-    Numbers { k: 1.0 + (numbers.k - 1.0) / times, ..numbers.with_rate(times) }
+    numbers.with_rate(times).with_torques([1.0 / times; 3])
 }
 
 fn as_scalar_last(numbers: Numbers) -> Numbers {

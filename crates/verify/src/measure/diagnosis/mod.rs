@@ -1,30 +1,41 @@
 //! What a wrong solver most likely does, told from its answers to launches of every kind: a known mistake that explains
-//! them, an error that is merely larger than allowed, or the launches on which alone it is right. If none of these holds, the
-//! smallest question that fails is shown. The judge of all of it is the reference. A cause is a conjecture from these launches,
-//! and is told with how many of them it explains.
+//! them, an error that is merely larger than allowed, or the launches on which alone it is right. If none of these explains
+//! all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a conjecture from
+//! these launches, and is told with how many of them it explains. Other bodies are asked for once coins are right.
 
 mod hypotheses;
 
 use std::cmp::Ordering;
+use std::time::{Duration, Instant};
 
-use dynamics::{Phases, Toss};
+use dynamics::{Flight, Phases, Toss};
 use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Attitude, SolverEntry};
 
-use self::hypotheses::{HYPOTHESES, Hypothesis, Numbers};
+use self::hypotheses::{HYPOTHESES, Hypothesis};
 use super::any_launch;
 use super::case;
 use super::reference::Reference;
 use super::run::Allowance;
 use super::subject::by_scheme;
+use crate::process::Question;
 use crate::shown::shown;
 
-/// The number of launches that a diagnosis asks for.
+pub(crate) use self::hypotheses::Numbers;
+
+/// The number of launches of coins that a diagnosis asks for, and as many of other bodies.
 const LAUNCHES: u64 = 1000;
 
+/// Of the launches one in so many says whether a solver is right, before it is measured: a prime number, so that launches of
+/// every kind are among them.
+const ONE_IN: usize = 7;
+
+/// So long the launches of one kind are asked for. What a slow solver has not answered by then is left out.
+const ASKED_FOR: Duration = Duration::from_secs(20);
+
 /// The tolerances at which they are asked for. Whoever is right at the first, and fails, is asked at the second.
-pub(crate) const TOLERANCES: [f64; 2] = [any_launch::TOLERANCE, 1e-12];
+const TOLERANCES: [f64; 2] = [any_launch::TOLERANCE, 1e-12];
 
 /// The part of the answers that a cause has to explain.
 const EXPLAINED: f64 = 0.95;
@@ -55,21 +66,19 @@ pub(crate) const GIVEN_UP: &str = "is no longer asked: it ";
 
 /// A launch that a solver was asked for, with its answer.
 #[derive(Debug)]
-pub struct Asked {
-    /// The toss.
-    pub toss: Toss,
+pub(crate) struct Asked {
+    toss: Toss,
     /// The question as the solver got it.
-    pub question: String,
-    /// The unit of the rates in the question (rad/s).
-    pub unit: f64,
+    question: String,
+    /// The numbers of the question, about axes from which `axes` leads to BF.
+    numbers: Numbers,
+    axes: Attitude,
     /// The answer as it was written, if it wrote any.
-    pub line: Option<String>,
+    line: Option<String>,
     /// The quaternion from BF to LF that was answered, or why there is none.
-    pub answer: Result<[f64; 4], String>,
-    /// The errors that are allowed.
-    pub allowed: Allowance,
-    /// The exact landing.
-    pub exact: Reference,
+    answer: Result<[f64; 4], String>,
+    allowed: Allowance,
+    exact: Reference,
 }
 
 /// What a wrong solver most likely does.
@@ -87,11 +96,11 @@ pub struct Diagnosis {
     pub right: u64,
     /// The number of launches without an answer.
     pub without_answer: u64,
-    /// The smallest question that fails.
+    /// The smallest question that the cause does not explain; if it explains all, the smallest that fails.
     pub example: Example,
 }
 
-/// A question with a wrong answer or none.
+/// A question with its answer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Example {
     /// The question as the solver got it.
@@ -103,25 +112,34 @@ pub struct Example {
 }
 
 impl Asked {
+    /// What the solver of `entry` answers; `None` if it takes no such body.
     fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, tolerance: f64, toss: &Toss) -> Option<Self> {
         let by = any_launch::subject(entry, scheme, tolerance, toss).ok()?;
         let landing = by.solver.land(toss);
         let (answer, estimate) = match &landing {
             Ok(landing) => (Ok(landing.state.attitude.components()), landing.error),
+            Err(error) if toss.coin().is_none() && error.kind() == "not_symmetric" => return None,
             Err(error) => (Err(error.to_string()), None),
         };
         // Whoever states nothing is taken by a rough measure.
         let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
         let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
         let question = case::text(toss) + &case::settings(&by);
-        Some(Self { toss: *toss, question, unit: 1.0, line, answer, allowed, exact: Reference::of(toss).ok()? })
+        let in_numbers = Question::new(toss, &Flight::new(toss).ok()?, any_launch::TOLERANCE);
+        Self::new(toss, question, &in_numbers, line, answer, allowed)
     }
 
-    /// The numbers of the question, in its unit.
-    fn numbers(&self) -> Option<Numbers> {
-        let numbers = Numbers::of(&self.toss)?;
-        let (rate, time) = (numbers.rate.map(|part| part / self.unit), numbers.time * self.unit);
-        Some(Numbers { rate, time, ..numbers })
+    /// `None` if there is no reference of the toss.
+    pub(crate) fn new(
+        toss: &Toss,
+        question: String,
+        in_numbers: &Question,
+        line: Option<String>,
+        answer: Result<[f64; 4], String>,
+        allowed: Allowance,
+    ) -> Option<Self> {
+        let (numbers, axes, exact) = (in_numbers.numbers(), in_numbers.axes(), Reference::of(toss).ok()?);
+        Some(Self { toss: *toss, question, numbers, axes, line, answer, allowed, exact })
     }
 
     /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
@@ -148,15 +166,18 @@ impl Asked {
 
     /// Whether `hypothesis` explains the answer; `None` if it says nothing of this question.
     fn is_explained(&self, hypothesis: &Hypothesis) -> Option<bool> {
-        let asked = self.numbers()?;
-        let Numbers { k, rate, time, attitude, .. } = (hypothesis.ask)(asked);
-        if ![k, rate[0], rate[1], rate[2], time].iter().all(|number| number.is_finite()) {
-            return None;
+        let asked = (hypothesis.ask)(self.numbers);
+        let right = || {
+            let answer = Attitude::from_components(*self.answer.as_ref().ok()?).ok()?;
+            let answer = (hypothesis.read)(&self.numbers, (answer * self.axes).components());
+            Attitude::from_components(answer).ok()
+        };
+        let answer = right();
+        match asked.angle_to(&answer.unwrap_or(Attitude::IDENTITY)) {
+            Some(off) => Some(answer.is_some() && off <= 10.0 * self.allowed.attitude.max(NEAR)),
+            // Numbers without a landing explain why there is no answer.
+            None => self.answer.is_err().then_some(true),
         }
-        let answer = (hypothesis.read)(&asked, *self.answer.as_ref().ok()?);
-        let Ok(answer) = Attitude::from_components(answer) else { return Some(false) };
-        let off = Reference::of_numbers(k, rate, time, attitude).attitude_error(&answer);
-        Some(off <= 10.0 * self.allowed.attitude.max(NEAR))
     }
 
     /// The fewer digits a question has, and the shorter its flight, the easier it is to follow.
@@ -180,113 +201,181 @@ impl Asked {
     }
 }
 
-/// The launches of which a diagnosis is made.
-pub fn launches() -> anyhow::Result<Vec<Toss>> {
-    Ok(any_launch::tosses(LAUNCHES)?)
-}
-
 /// What the solver of `entry` most likely does wrong with each of its schemes, by those whose rows `fails` says to fail.
 pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> anyhow::Result<Vec<Diagnosis>> {
-    let launches = launches()?;
-    let of_scheme = |(entry, scheme): (&SolverEntry, Option<toss::Scheme>)| {
-        let name = any_launch::subject(entry, scheme, TOLERANCES[0], &launches[0]).ok()?.name;
-        let asked = |by: f64| launches.par_iter().filter_map(|toss| Asked::of(entry, scheme, by, toss)).collect();
-        let of_tolerance = |by: &f64| diagnosis(&name, asked(*by));
-        if fails(&name) { TOLERANCES.iter().find_map(of_tolerance) } else { None }
-    };
-    Ok(by_scheme(entry).filter_map(of_scheme).collect())
+    let mut found = Vec::new();
+    for (entry, scheme) in by_scheme(entry) {
+        let Some(toss) = any_launch::tosses(1)?.pop() else { continue };
+        let name = any_launch::subject(entry, scheme, TOLERANCES[0], &toss)?.name;
+        if fails(&name) {
+            found.extend(of_solver(&name, &|toss, by| Asked::of(entry, scheme, by, toss))?);
+        }
+    }
+    Ok(found)
 }
 
-/// The likeliest cause of the wrong answers of `subject`; `None` if all are right.
-pub fn diagnosis(subject: &str, mut asked: Vec<Asked>) -> Option<Diagnosis> {
+/// What a solver answers to a toss at a tolerance; `None` if it takes no such body.
+type Ask<'a> = dyn Fn(&Toss, f64) -> Option<Asked> + Sync + 'a;
+
+/// What `subject` most likely does wrong, by what `ask` answers.
+pub(crate) fn of_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
+    let launches = launches()?;
+    let of = |kind: usize| TOLERANCES.iter().find_map(|by| of_kind(kind, &launches, 1, *by, subject, ask));
+    Ok(of(0).or_else(|| of(1)))
+}
+
+/// The same of a solver that is wrong on a few launches, by these alone if a cause explains them.
+pub(crate) fn of_wrong_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
+    let launches = launches()?;
+    let found = (0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask));
+    if found.as_ref().is_none_or(|found| found.explains_all) { Ok(found) } else { of_solver(subject, ask) }
+}
+
+/// By its answers to one in so many launches of a kind.
+fn of_kind(
+    kind: usize,
+    launches: &[Vec<Toss>; 2],
+    one_in: usize,
+    tolerance: f64,
+    subject: &str,
+    ask: &Ask<'_>,
+) -> Option<Diagnosis> {
+    let asked = some_of(&launches[kind], one_in, tolerance, ask);
+    // What is wrong for coins may be told apart by bodies.
+    let also = kind == 0 && !asked.iter().all(Asked::is_right);
+    let also = if also { some_of(&launches[1], ONE_IN, tolerance, ask) } else { Vec::new() };
+    diagnosis(subject, asked, &also)
+}
+
+/// The launches of which a diagnosis is made: of coins, and of other bodies.
+fn launches() -> anyhow::Result<[Vec<Toss>; 2]> {
+    Ok([any_launch::tosses(LAUNCHES)?, any_launch::bodies(LAUNCHES)?])
+}
+
+fn some_of(launches: &[Toss], one_in: usize, tolerance: f64, ask: &Ask<'_>) -> Vec<Asked> {
+    let began = Instant::now();
+    let asked = |toss| if began.elapsed() < ASKED_FOR { ask(toss, tolerance) } else { None };
+    launches.par_iter().step_by(one_in).filter_map(asked).collect()
+}
+
+/// The likeliest cause of the wrong answers of `subject`; `None` if all are right. Of two causes that explain the same
+/// answers, that which explains more of what it answered `also` is likelier.
+fn diagnosis(subject: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
     let is_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
     asked.retain(|one| is_silent || one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
-    let (right, wrong): (Vec<&Asked>, Vec<&Asked>) = asked.iter().partition(|one| one.is_right());
-    let smallest = wrong.iter().min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?;
-    let silent: Vec<&Asked> = wrong.iter().copied().filter(|one| one.answer.is_err()).collect();
-    let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
-    let unanswered = |is_it: bool| is_it.then(|| (no_answer(&silent, asked.len()), true));
+    let wrong: Vec<&Asked> = asked.iter().filter(|one| !one.is_right()).collect();
+    let silent = wrong.iter().filter(|one| one.answer.is_err()).count();
+    if wrong.is_empty() {
+        return None;
+    }
+    let unanswered = |is_it: bool| is_it.then(|| no_answer(&asked));
     // A few wrong answers are rather those of some launches than of a rough solver.
     let is_rare = wrong.len() * 10 < asked.len();
-    let cause = unanswered(silent.len() * 2 > asked.len())
+    let cause = unanswered(silent * 2 > asked.len())
         .or_else(|| if is_rare { split(&asked) } else { None })
-        .or_else(|| unanswered(silent.len() == wrong.len()))
-        .or_else(|| without_norm(&answered, asked.len()))
-        .or_else(|| rough(&answered, asked.len()))
-        .or_else(|| mistake(&answered, asked.len()))
+        .or_else(|| unanswered(silent == wrong.len()))
+        .or_else(|| without_norm(&asked))
+        .or_else(|| rough(&asked))
+        .or_else(|| mistake(&asked, also))
         .or_else(|| split(&asked));
-    let unexplained = || {
-        let (wrong, all) = (wrong.len(), asked.len());
-        (
-            format!(
-                "wrong in {wrong} of {all} launches, for a reason that none of the {} known mistakes explains",
-                HYPOTHESES.len()
-            ),
-            false,
-        )
+    let unknown = || {
+        let (wrong, all, known) = (wrong.len(), asked.len(), HYPOTHESES.len());
+        let words = format!(
+            "wrong in {wrong} of {all} launches, for a reason that none of the {known} known mistakes explains"
+        );
+        Cause::unexplained(words, &asked)
     };
-    let (cause, explains_all) = cause.unwrap_or_else(unexplained);
+    let Cause { words, explains } = cause.unwrap_or_else(unknown);
+    let unexplained = asked.iter().zip(&explains).filter(|(_, explained)| **explained == Some(false));
+    let unexplained: Vec<&Asked> = unexplained.map(|(one, _)| one).collect();
+    let explains_all = unexplained.is_empty();
+    let is_wrong_beside = unexplained.iter().any(|one| !one.is_right());
+    let shown_of = if explains_all { &wrong } else { &unexplained };
+    let shown_of = shown_of.iter().filter(|one| !is_wrong_beside || !one.is_right());
+    let example = shown_of.min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?.example();
     Some(Diagnosis {
         subject: subject.to_owned(),
-        cause: shown(&cause),
+        cause: shown(&words),
         explains_all,
         launches: asked.len() as u64,
-        right: right.len() as u64,
-        without_answer: silent.len() as u64,
-        example: smallest.example(),
+        right: (asked.len() - wrong.len()) as u64,
+        without_answer: silent as u64,
+        example,
     })
 }
 
-/// A cause in words, and whether it explains every answer.
-type Cause = (String, bool);
+/// A cause.
+struct Cause {
+    words: String,
+    /// Whether it explains each of the answers; `None` where it says nothing.
+    explains: Vec<Option<bool>>,
+}
+
+impl Cause {
+    /// One that explains no wrong answer.
+    fn unexplained(words: String, asked: &[Asked]) -> Self {
+        Self { words, explains: asked.iter().map(|one| Some(one.is_right())).collect() }
+    }
+
+    /// One that explains what it does, in `words` with the number.
+    fn explaining(words: &str, explains: Vec<Option<bool>>) -> Self {
+        let said = explains.iter().flatten().count();
+        let rest = explains.len() - said;
+        let rest = if rest == 0 { String::new() } else { format!(", and {rest} have no landing then") };
+        Self { words: format!("{words}: {} of {said}{rest}", count(&explains)), explains }
+    }
+}
+
+fn count(explains: &[Option<bool>]) -> usize {
+    explains.iter().filter(|explained| **explained == Some(true)).count()
+}
 
 /// The most frequent reason why there is no answer.
-fn no_answer(silent: &[&Asked], all: usize) -> String {
-    let reasons = silent.iter().filter_map(|one| one.answer.as_ref().err());
+fn no_answer(asked: &[Asked]) -> Cause {
+    let reasons = asked.iter().filter_map(|one| one.answer.as_ref().err());
     // A program that is given up says of all launches that follow what it did.
     let mut reasons: Vec<&str> = reasons.map(|why| why.strip_prefix(GIVEN_UP).unwrap_or(why)).collect();
     reasons.sort_unstable();
     let most = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
     let reason = most.and_then(|same| same.first()).copied().unwrap_or_default();
-    format!("no answer to {} of {all} launches: {reason}", silent.len())
+    let words = format!("no answer to {} of {} launches: {reason}", reasons.len(), asked.len());
+    Cause { words, explains: asked.iter().map(|one| Some(one.answer.is_err() || one.is_right())).collect() }
 }
 
 /// A known mistake that explains nearly all answers, the wrong and the right ones.
-fn mistake(answered: &[&Asked], all: usize) -> Option<Cause> {
+fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
+    let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
     let wrong: Vec<&Asked> = answered.iter().copied().filter(|one| !one.is_right()).collect();
     let few: Vec<&Asked> = wrong.iter().copied().step_by((wrong.len() / TRIED).max(1)).collect();
-    let share = |explained: &[Option<bool>]| {
-        let (said, so) = (explained.iter().flatten().count(), explained.iter().flatten().filter(|is| **is).count());
-        if said == 0 { (0.0, 0) } else { (so as f64 / said as f64, so) }
+    let also: Vec<&Asked> = also.iter().collect();
+    let share = |hypothesis: &Hypothesis, on: &[&Asked]| {
+        let explains: Vec<_> = on.par_iter().map(|one| one.is_explained(hypothesis)).collect();
+        count(&explains) as f64 / explains.iter().flatten().count().max(on.len().div_ceil(2)) as f64
     };
-    let tried = |hypothesis: &Hypothesis, on: &[&Asked]| -> (f64, usize) {
-        share(&on.par_iter().map(|one| one.is_explained(hypothesis)).collect::<Vec<_>>())
-    };
-    let explains =
-        |hypothesis: &&Hypothesis| tried(hypothesis, &few).0 > 0.75 && tried(hypothesis, &wrong).0 >= EXPLAINED;
-    let scored = HYPOTHESES.iter().filter(explains).map(|hypothesis| (tried(hypothesis, answered), hypothesis));
-    let best = scored.filter(|((share, _), _)| *share >= EXPLAINED);
-    let best = best.reduce(|best, next| if next.0.0 > best.0.0 { next } else { best });
-    best.map(|((share, number), hypothesis)| {
-        (format!("right if {}: {number} of {all}", hypothesis.words), share == 1.0)
-    })
+    let explains = |hypothesis: &&Hypothesis| share(hypothesis, &few) > 0.75 && share(hypothesis, &wrong) >= EXPLAINED;
+    let scored = HYPOTHESES.iter().filter(explains).map(|hypothesis| (share(hypothesis, &answered), hypothesis));
+    let scored = scored.filter(|(of_answered, _)| *of_answered >= EXPLAINED);
+    let scored = scored.map(|(of_answered, hypothesis)| ([of_answered, share(hypothesis, &also)], hypothesis));
+    let (_, best) = scored.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+    let explains = asked.par_iter().map(|one| one.is_explained(best)).collect();
+    Some(Cause::explaining(&format!("right if {}", best.words), explains))
 }
 
 /// Quaternions that are wrong by their norm alone.
-fn without_norm(answered: &[&Asked], all: usize) -> Option<Cause> {
-    let right = answered.iter().filter(|one| one.is_right_in_direction()).count();
-    let wrong = answered.iter().filter(|one| !one.is_right()).count();
-    let is_so = ((answered.len() - right) as f64) <= (1.0 - EXPLAINED) * wrong as f64;
-    is_so
-        .then(|| (format!("right if its quaternion is divided by its norm: {right} of {all}"), right == answered.len()))
+fn without_norm(asked: &[Asked]) -> Option<Cause> {
+    let explains: Vec<_> = asked.iter().map(|one| Some(one.is_right_in_direction())).collect();
+    let answered = asked.iter().filter(|one| one.answer.is_ok()).count();
+    let wrong = asked.iter().filter(|one| one.answer.is_ok() && !one.is_right()).count();
+    let is_so = ((answered - count(&explains)) as f64) <= (1.0 - EXPLAINED) * wrong as f64;
+    is_so.then(|| Cause::explaining("right if its quaternion is divided by its norm", explains))
 }
 
 /// An error that is merely larger than allowed, as of an integrator with too loose a tolerance or too long a step: in flights
 /// of moderate phase φ it is in proportion to 1 + φ, and in longer ones it grows at most by φ².
-fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
+fn rough(asked: &[Asked]) -> Option<Cause> {
     let growth = |one: &Asked| Some((1.0 + Phases::new(&one.toss).ok()?.largest, one.errors()?));
-    let errors: Vec<(f64, [f64; 2])> = answered.iter().filter_map(|one| growth(one)).collect();
-    let moderate = errors.iter().filter(|(growth, _)| MODERATE.contains(growth));
+    let errors: Vec<Option<(f64, [f64; 2])>> = asked.iter().map(growth).collect();
+    let moderate = errors.iter().flatten().filter(|(growth, _)| MODERATE.contains(growth));
     let mut of_moderate: Vec<(f64, f64)> = moderate.map(|(growth, [part, angle])| (angle / growth, *part)).collect();
     of_moderate.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Whoever keeps the tolerance in these flights does something else wrong.
@@ -295,12 +384,10 @@ fn rough(answered: &[&Asked], all: usize) -> Option<Cause> {
     let is_explained = |(growth, [part, angle]): &(f64, [f64; 2])| {
         *part <= 1.0 || *angle <= NEAR_TOLERANCE * tolerance * growth.powi(2)
     };
-    let explained = errors.iter().filter(|error| is_explained(error)).count();
-    let is_rough = tolerance <= ROUGH && explained as f64 >= EXPLAINED * answered.len() as f64;
-    is_rough.then(|| {
-        let words = format!("right up to a tolerance of about {tolerance:.0e}, looser than asked or claimed");
-        (format!("{words}: {explained} of {all}"), explained == all)
-    })
+    let explains: Vec<_> = errors.iter().map(|error| Some(error.as_ref().is_some_and(is_explained))).collect();
+    let is_rough = tolerance <= ROUGH && count(&explains) as f64 >= EXPLAINED * errors.iter().flatten().count() as f64;
+    let words = format!("right up to a tolerance of about {tolerance:.0e}, looser than asked or claimed");
+    is_rough.then(|| Cause::explaining(&words, explains))
 }
 
 /// cos θ = w² + z² - x² - y² of a quaternion as it was answered. That its norm is off by rounding is not its fault.
@@ -313,8 +400,12 @@ pub(crate) fn cos_tilt_as_answered([w, x, y, z]: [f64; 4]) -> f64 {
 /// A number of a question by which right and wrong answers may be told apart.
 struct Feature(&'static str, fn(&Toss, &Numbers) -> f64);
 
-const FEATURES: [Feature; 14] = [
-    Feature("k = i3/i1", |_, of| of.k),
+const FEATURES: [Feature; 18] = [
+    Feature("k = i3/i1", |_, of| of.k()),
+    Feature("i2/i1", |_, of| of.moments[1] / of.moments[0]),
+    Feature("i3/i2", |_, of| of.moments[2] / of.moments[1]),
+    Feature("the smallest moment divided by the largest", |_, of| of.thinness()),
+    Feature("2 T I/S² (energy T, angular momentum S, middle moment I)", |_, of| of.side_of_the_separatrix()),
     Feature("the phase (rad)", |toss, _| Phases::new(toss).map_or(f64::INFINITY, |phases| phases.largest)),
     Feature("the tilt at launch (rad)", |_, of| {
         let [w, x, y, z] = of.attitude;
@@ -322,7 +413,7 @@ const FEATURES: [Feature; 14] = [
     }),
     Feature("the time", |_, of| of.time),
     Feature("the largest component of the rate", |_, of| nalgebra::Vector3::from(of.rate).amax()),
-    Feature("i1", |_, of| of.i1),
+    Feature("i1", |_, of| of.moments[0]),
     Feature("w", |_, of| of.attitude[0]),
     Feature("x", |_, of| of.attitude[1]),
     Feature("y", |_, of| of.attitude[2]),
@@ -345,8 +436,9 @@ fn split(asked: &[Asked]) -> Option<Cause> {
     let mut best: Option<(f64, String)> = None;
     for Feature(name, number) in &FEATURES {
         for sign in [1.0, -1.0] {
-            let of = |one: &Asked| Some((sign * number(&one.toss, &one.numbers()?), one.is_right()));
-            let mut sorted: Vec<(f64, bool)> = asked.iter().filter_map(of).collect();
+            let of = |one: &Asked| (sign * number(&one.toss, &one.numbers), one.is_right());
+            // 0/0 is none.
+            let mut sorted: Vec<(f64, bool)> = asked.iter().map(of).filter(|(number, _)| !number.is_nan()).collect();
             sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
             let Some(first) = sorted.iter().find(|(_, right)| !right).map(|(value, _)| *value) else { continue };
             let below = sorted.partition_point(|(value, _)| *value < first);
@@ -375,7 +467,7 @@ fn split(asked: &[Asked]) -> Option<Cause> {
             }
         }
     }
-    best.map(|(_, words)| (words, false))
+    best.map(|(_, words)| Cause::unexplained(words, asked))
 }
 
 /// The number from `low` to `high` with the fewest digits.

@@ -165,8 +165,7 @@ fn panel_of_proofs(panel: &Panel<'_>, title: &str, proofs: &[Proof]) -> Drawn {
     let mut lines: Vec<Series> = proofs.iter().map(gap).collect();
     lines.push(line("proven bound", VERMILION, (LINE_WIDTH, Marker::Disc), of(|proof| proof.bound)));
     lines.push(line("error", BLUE, (LINE_WIDTH, Marker::Square), of(|proof| proof.error)));
-    let mut labels = log_log(panel, title, (&x, &y), &lines, PROOFS_RIGHT)?;
-    labels.retain(|label| !label.text.is_empty());
+    let labels = log_log(panel, title, (&x, &y), &lines, PROOFS_RIGHT)?;
     end_labels(panel, i32::try_from(panel.dim_in_pixel().0 - PROOFS_RIGHT).unwrap_or(0) + 16, labels)
 }
 
