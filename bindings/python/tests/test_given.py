@@ -89,6 +89,7 @@ CALLS = {
     "Toss by time": (ut.Toss, {"rate": (1, 2, 3), "time": 3.0}),
     "Toss with a tilt": (ut.Toss, {"rate": (1, 2, 3), "speed": 3.0, "gravity": 9.0, "drop": 0.1, "tilt": 0.1}),
     "Toss with an attitude": (ut.Toss, {"rate": (1, 2, 3), "speed": 3.0, "attitude": (1, 0, 0, 0), "body": "paper"}),
+    "Toss of a precession": (ut.Toss, {"turn": 6.0, "psi": 1.0, "speed": 3.0}),
     "Body.named": (ut.Body.named, {"name": "paper"}),
     "Body.cylinder": (ut.Body.cylinder, {"mass": 1.0, "radius": 1.0, "thickness": 1.0}),
     "Body.from_moments": (ut.Body.from_moments, {"moments": (1.0, 2.0)}),
@@ -157,6 +158,8 @@ CALLS = {
             ("", {"gravity": 9.0, "drop": 0.1, "tilt": 0.1, "body": "paper"}),
             (" by time", {"speed": None, "time": 1.0, "attitude": (1, 0, 0, 0)}),
             (" of attitudes", {"attitude": [(1, 0, 0, 0)]}),
+            (" of turns", {"rate_x": None, "rate_y": None, "rate_z": None, "turn": 6.0, "psi": 1.0, "body": ["disc"]}),
+            (" of moments", {"moments": [(1.0, 1.5)]}),
             (" by a solver", {"solver": "quaternion"}),
         ]
     },
@@ -225,6 +228,7 @@ EFFECTS = {
     "cos_tilt": (ut.cos_tilt, COLUMNS),
     "cos_tilt by time": (ut.cos_tilt, {"rate_x": 1.0, "rate_y": 1.0, "rate_z": 2.5, "time": 0.6}),
     "Toss": (ut.Toss, {"rate": (1, 1, 2.5), "speed": 3.0}),
+    "attitude of turns": (ut.attitude, {"turn": 6.0, "psi": 1.2, "speed": 3.0}),
     "Toss by time": (ut.Toss, {"rate": (1, 1, 2.5), "time": 0.6}),
     "Solver": (ut.Solver, {"name": "euler"}),
     "exact": (ut.Solver, {"name": "exact"}),
@@ -236,6 +240,7 @@ KEYWORDS = {
     "accuracy": 1e-2, "solver": "quaternion", "executor": one_thread, "shards": 3, "retries": 5, "scheme": "rk4", "rtol": 1e-3,
     "atol": 1e-3, "step": 0.1, "formulation": "vertical", "method": "RK45", "points": 4096, "dt": 0.25, "gravity": 5.0, "drop": 0.5,
     "tilt": 1.0, "attitude": (0.6, 0.8, 0, 0), "body": "us-quarter", "scrambles": 4, "seed": 3, "range": (0, 50), "slowest": 2.0,
+    "turn": 7.0, "psi": 1.0, "moments": (1.0, 1.5), "rate_x": 1.0,
     "dense_output": True, "progress": None, "folder": None, "out": None, "threads": 1,
 }  # fmt: skip
 # They say how an answer is computed, or are where it comes from.
