@@ -530,6 +530,7 @@ mod tests {
         let rests = [0.0; 9];
         let coins = Coins::Ratios([Column::Each(&i3), Column::Each(&rests)]);
         let found = which(Varying { coins, rates: [&column; 3], flights, attitudes });
-        assert_eq!(found, [true, true, true, true, true, false, false, false, false]);
+        // The spin of the last one takes too many turns.
+        assert_eq!(found, [true, true, true, true, true, false, false, false, true]);
     }
 }
