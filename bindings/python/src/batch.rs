@@ -11,25 +11,28 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::body::body_of;
+use crate::body::body_at;
 use crate::errors::{Failure, malformed};
 use crate::given::{count, optional_number};
-use crate::launches::{Common, Counts, Launches, added};
+use crate::launches::{BLOCK, Common, Counts, Launches, added};
 use crate::solver::backend_of;
-use crate::threads::{self, A_CALL, A_PROOF, SMALLEST_PART};
+use crate::threads::{self, A_CALL, A_PROOF, SMALLEST_PART, Stop};
 use crate::toss::put_attitude;
 
-/// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
-const A_SLOW_CALL: usize = 1 << 6;
+/// Most launches of a call if they are not solved by the kernels of coins, so that work that is wanted no more ends soon, and
+/// what a filter of a body's outcomes begins with, as long as some hundred launches, counts little.
+const A_SLOW_CALL: usize = BLOCK;
 
 /// Launches for the kernels beyond which threads are worth their start.
 const WORTH_THREADS: usize = 1 << 17;
 
-/// What the launches of some columns have in common, and the threads that solve them. The columns are the rates about x, y
-/// and z, the speeds, and where they vary gravity, the drop, the tilt, and w, x, y, z of the attitude.
+/// What the launches of some columns have in common, and the threads that solve them. The columns are those of
+/// [`Launches::columns`].
 #[pyclass(frozen, module = "unfair_toss._native")]
 pub(crate) struct Batch {
     launches: Arc<Common>,
+    /// Whether there are a turn and ψ instead of rates.
+    precesses: bool,
     threads: Option<u64>,
     /// Made at the first call that several threads are worth it for.
     pool: OnceLock<Arc<rayon::ThreadPool>>,
@@ -51,15 +54,16 @@ type Column<'py> = Bound<'py, PyArray1<f64>>;
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (body, *, gravity, drop, tilt, attitude, varying, timed, solver, threads))]
+    #[pyo3(signature = (bodies, *, gravity, drop, tilt, attitude, varying, precesses, timed, solver, threads))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
-        body: &Bound<'_, PyAny>,
+        bodies: Vec<(Bound<'_, PyAny>, Option<u64>)>,
         gravity: Option<&Bound<'_, PyAny>>,
         drop: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
-        varying: [bool; 4],
+        varying: [usize; 5],
+        precesses: bool,
         timed: bool,
         solver: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
@@ -76,8 +80,10 @@ impl Batch {
         let solver = solver.map(backend_of).transpose()?;
         // With a gravity of 2 m/s², a speed is the time of flight.
         let gravity = if timed { 2.0 } else { gravity };
-        let launches = Common { body: body_of(body)?.get().body, attitude, gravity, drop, varying, timed, solver };
-        Ok(Self { launches: Arc::new(launches), threads, pool: OnceLock::new() })
+        let bodies = bodies.iter().map(|(body, index)| Ok(body_at(body, *index)?.get().body));
+        let bodies = bodies.collect::<PyResult<_>>()?;
+        let launches = Common { bodies, attitude, gravity, drop, varying, timed, solver };
+        Ok(Self { launches: Arc::new(launches), precesses, threads, pool: OnceLock::new() })
     }
 
     /// Whether the launches are solved by the kernels.
@@ -118,37 +124,65 @@ impl Batch {
         let counts = if self.is_vectorised() {
             threads::collect(py, self.pool(number)?.as_deref(), number, |range| count_runs(&launches, range))?
         } else {
-            let (mut own, pool) = (launches.owned(), self.pool(number)?);
+            let (pool, order) = (self.pool(number)?, launches.in_order());
+            let own = launches.taken(&order);
             threads::aside(py, move |stop| {
-                own.stop = Some(stop.clone());
-                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&own, range))
+                first_failing(own, order, stop, first, |own| {
+                    threads::collected(pool.as_deref(), stop, A_SLOW_CALL, own.len(), |range| count_runs(own, range))
+                })
             })?
         };
         Ok(counts.into_iter().fold(Counts::default(), added))
     }
 }
 
-fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
-    launches
-        .runs(range, launches.of.is_vectorised())
-        .try_fold(Counts::default(), |sum, run| Ok(added(sum, launches.count(run)?)))
+/// What `solve` finds of `launches`, which were taken in this order from those whose first one has the index `first`; or the
+/// failure of the one with the lowest index, which need not be the first one that is met.
+fn first_failing<R>(
+    mut launches: Launches<'static>,
+    mut order: Vec<usize>,
+    stop: &Stop,
+    first: u64,
+    solve: impl Fn(&Launches<'static>) -> Result<R, Failure>,
+) -> Result<R, Failure> {
+    let mut lowest = None;
+    loop {
+        launches.stop = Some(stop.clone());
+        let failure = match (solve(&launches), lowest) {
+            (Ok(found), None) => return Ok(found),
+            (Ok(_), Some(failure)) => return Err(failure),
+            (Err(failure), _) => failure,
+        };
+        let Some(place) = failure.launch().and_then(|index| order.get(usize::try_from(index).ok()?).copied()) else {
+            return Err(failure);
+        };
+        lowest = Some(failure.moved(|_| first + place as u64));
+        let before: Vec<usize> = (0..order.len()).filter(|index| order[*index] < place).collect();
+        launches = launches.taken(&before);
+        order.retain(|of| *of < place);
+    }
 }
 
-/// Writes what is found of the launches in a range, of those in a row at once that differ in rates and speeds only.
-fn by_runs<T>(
+fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
+    let mut sum = Counts::default();
+    launches.by_runs(range, |launches, run| Ok(sum = added(sum, launches.count(run)?)))?;
+    Ok(sum)
+}
+
+/// Writes what is found of the launches in a range.
+fn write_runs<T>(
     launches: &Launches<'_>,
     range: Range<usize>,
     out: &mut [T],
     width: usize,
     solve: Solve<T>,
 ) -> Result<(), Failure> {
-    let start = range.start;
-    let place = |index: usize| width * (index - start);
-    // Of cos θ and outcomes of coins.
-    let varies = width == 1 && launches.of.is_vectorised();
-    launches
-        .runs(range, varies)
-        .try_for_each(|run| solve(launches, run.clone(), &mut out[place(run.start)..place(run.end)]))
+    let mut rest = out;
+    launches.by_runs(range, |launches, run| {
+        let (out, others) = std::mem::take(&mut rest).split_at_mut(width * run.len());
+        rest = others;
+        solve(launches, run, out)
+    })
 }
 
 /// The columns, for reading.
@@ -194,29 +228,32 @@ impl Batch {
         let mut out = out.try_readwrite().map_err(in_use)?;
         let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, width)?;
         if self.is_vectorised() {
-            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
+            let solve = |range: Range<usize>, out: &mut [T]| write_runs(&launches, range, out, width, solve);
             return threads::fill(py, self.pool(launches.len())?.as_deref(), a_call, out, width, solve);
         }
-        let (mut own, pool, length) = (launches.owned(), self.pool(launches.len())?, out.len());
+        let (pool, order) = (self.pool(launches.len())?, launches.in_order());
+        let (own, places) = (launches.taken(&order), order.clone());
         let found = threads::aside(py, move |stop| {
-            own.stop = Some(stop.clone());
-            let mut found = vec![T::default(); length];
-            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&own, range, out, width, solve);
-            threads::filled(pool.as_deref(), stop, A_SLOW_CALL, &mut found, width, solve)?;
-            Ok(found)
+            first_failing(own, order, stop, first, |own| {
+                let mut found = vec![T::default(); width * own.len()];
+                let solve = |range: Range<usize>, out: &mut [T]| write_runs(own, range, out, width, solve);
+                threads::filled(pool.as_deref(), stop, A_SLOW_CALL, &mut found, width, solve)?;
+                Ok(found)
+            })
         })?;
-        out.copy_from_slice(&found);
+        for (found, place) in found.chunks_exact(width).zip(places) {
+            out[width * place..width * (place + 1)].copy_from_slice(found);
+        }
         Ok(())
     }
 
     fn launches<'a>(&self, columns: &'a [PyReadonlyArray1<'_, f64>], first: u64) -> PyResult<Launches<'a>> {
         let slice = |column: &'a PyReadonlyArray1<'_, f64>| column.as_slice().map(Cow::Borrowed).map_err(no_column);
         let columns: Vec<_> = columns.iter().map(slice).collect::<PyResult<_>>()?;
-        let [gravity, drop, tilt, attitude] = self.launches.varying.map(usize::from);
-        let right = 4 + gravity + drop + tilt + 4 * attitude;
+        let right = 4 + self.launches.varying.iter().sum::<usize>();
         if columns.len() != right || columns.iter().any(|column| column.len() != columns[0].len()) {
             return Err(malformed("columns", "of different lengths", "as many of each kind"));
         }
-        Ok(Launches { of: self.launches.clone(), columns, first, stop: None })
+        Ok(Launches { of: self.launches.clone(), columns, precesses: self.precesses, first, stop: None })
     }
 }

@@ -137,10 +137,19 @@ impl Body {
 
 /// The body that an argument means: a name of the catalogue, or a [`Body`].
 pub(crate) fn body_of(argument: &Bound<'_, PyAny>) -> PyResult<Py<Body>> {
-    match argument.extract::<String>() {
-        Ok(name) => Py::new(argument.py(), Body::of_name(name, "body")?),
-        Err(_) => Ok(object::<Body>("body", argument, "the name of a body, or a Body")?.clone().unbind()),
-    }
+    body_at(argument, None)
+}
+
+/// The same of element `index` of an argument that means several.
+pub(crate) fn body_at(argument: &Bound<'_, PyAny>, index: Option<u64>) -> PyResult<Py<Body>> {
+    let Ok(name) = argument.extract::<String>() else {
+        return Ok(object::<Body>("body", argument, "the name of a body, or a Body")?.clone().unbind());
+    };
+    let body = named_body(&name).map_err(|error| {
+        let failure = Failure::from(error).of("body");
+        if let Some(index) = index { failure.element(index) } else { failure }
+    });
+    Py::new(argument.py(), Body { body: body?, origin: Origin::Named(name) })
 }
 
 impl Body {

@@ -32,6 +32,15 @@ impl Failure {
         Self { index: Some(index), ..self }
     }
 
+    /// The same failure, of the launch that `place` puts in place of the one that it is of.
+    pub(crate) fn moved(mut self, place: impl Fn(u64) -> u64) -> Self {
+        match &mut self.error {
+            Error::Launch { index, .. } | Error::BadLaunch { index, .. } => *index = place(*index),
+            _ => self.index = self.index.map(place),
+        }
+        self
+    }
+
     /// The same failure, of element `index` of the argument that is at fault.
     pub(crate) fn element(self, index: u64) -> Self {
         Self { index: Some(index), argument: self.argument.or(self.error.field().map(argument)), ..self }
@@ -43,7 +52,7 @@ impl Failure {
     }
 
     /// The index of the launch, also where the error itself has it.
-    fn launch(&self) -> Option<u64> {
+    pub(crate) fn launch(&self) -> Option<u64> {
         match &self.error {
             Error::Launch { index, .. } | Error::BadLaunch { index, .. } => Some(*index),
             _ => self.index,

@@ -1,14 +1,15 @@
 //! Estimates of probabilities.
 
 use ::toss::defaults;
-use ::toss::sampling::{self, Counts, Found, IntervalKind, Space};
-use ::toss::{Answer, Backend, InputError, Registry, Scene, Want};
+use ::toss::sampling::{self, Counts, Found, IntervalKind, Sampler, Space};
+use ::toss::solvers::{IntegratedCounts, Proving};
+use ::toss::{Answer, Backend, InputError, Registry, Scene, Stage, Want};
 use exact::STAGES;
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
 use crate::plans::{Plan, accuracy, plan_of};
-use crate::solver::backend_of;
+use crate::solver::{backend_of, prover_of};
 use crate::space::space_of;
 use crate::threads;
 use crate::threads::threads_of;
@@ -25,6 +26,7 @@ pub(crate) struct Estimate {
     undecided: Option<u64>,
     certified: bool,
     proven_by: Option<Stages>,
+    integrated_by: Option<Integrated>,
     plan: Plan,
 }
 
@@ -34,6 +36,25 @@ struct Stages {
     f64: u64,
     double_double: u64,
     multiprecision: u64,
+}
+
+/// The numbers of outcomes proven by integration, by the stage of the proof.
+#[derive(IntoPyObject)]
+struct Integrated {
+    coarse: u64,
+    f64: u64,
+    finest_tolerance: u64,
+    double_double: u64,
+    more_digits: u64,
+}
+
+impl Estimate {
+    /// The same, of which each outcome is proven as these `counts` say.
+    fn integrated(self, counts: &IntegratedCounts) -> Self {
+        let [coarse, f64, finest_tolerance, double_double, more_digits] = Stage::ALL.map(|stage| counts.by(stage));
+        let integrated_by = Integrated { coarse, f64, finest_tolerance, double_double, more_digits };
+        Self { certified: counts.undecided == 0, integrated_by: Some(integrated_by), ..self }
+    }
 }
 
 impl From<&sampling::Estimate> for Estimate {
@@ -52,6 +73,7 @@ impl From<&sampling::Estimate> for Estimate {
             undecided: counts.map(|counts| counts.undecided()),
             certified: proven.is_some() || found.interval_kind == IntervalKind::Proven,
             proven_by: by_stage.map(stages),
+            integrated_by: None,
             plan: found.plan.into(),
         }
     }
@@ -65,8 +87,19 @@ pub(crate) fn estimate_by_solver(
     plan: &Bound<'_, PyAny>,
     solver: &Bound<'_, PyAny>,
     #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
+    prove: bool,
 ) -> PyResult<Estimate> {
     let plan = plan_of(plan, &space)?;
+    if prove {
+        let proving = Proving::new(prover_of(solver)?).map_err(Failure::from)?;
+        let pool = threads::pool(threads)?;
+        let found = threads::aside(py, move |stop| {
+            let progress = |_| stop.here();
+            let found = pool.install(|| Sampler::by(&proving).on_progress(&progress).estimate(&space, plan))?;
+            Ok(Estimate::from(&found).integrated(&proving.counts()))
+        });
+        return found;
+    }
     let (backend, pool): (Backend, _) = (backend_of(solver)?, threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();

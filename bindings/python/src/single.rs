@@ -6,9 +6,9 @@ use ::toss::defaults::TRACE_POINTS;
 use ::toss::quantity::Rounding;
 use ::toss::report;
 use ::toss::sampling::{Cone, Interval, Power, SameSide, SameSideBias, Spread, long_flight_cone, rate_ratio};
-use ::toss::trace::trace_every;
+use ::toss::trace::{EnclosedPoint, Times, enclosed_points, trace_every};
 use ::toss::{
-    Backend, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
+    Backend, Error, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
     TimeOfFlight, Toss, Work, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
@@ -19,7 +19,7 @@ use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed, refused};
 use crate::given::{count, counts, number, object, optional_number};
 use crate::planner::points_of;
-use crate::solver::backend_of;
+use crate::solver::{backend_of, prover_of};
 use crate::threads::{self, Stop};
 use crate::toss::{Toss as Given, toss_of};
 
@@ -295,21 +295,37 @@ pub(crate) fn same_side_bias(
 /// A row of numbers for each time.
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
 
-/// The flight at equally spaced times, as rows: time, attitude (4), angles (3), normal (3), face (3), cos θ.
+/// The flight at equally spaced times, as rows: time, attitude (4), angles (3), normal (3), face (3), cos θ; with proofs also
+/// the bounds of the errors of cos θ and of the quaternion.
 #[pyfunction]
-#[pyo3(signature = (toss, points, dt, solver))]
+#[pyo3(signature = (toss, points, dt, solver, prove))]
 pub(crate) fn trace<'py>(
     py: Python<'py>,
     #[pyo3(from_py_with = toss_of)] toss: Toss,
     points: Option<&Bound<'py, PyAny>>,
     dt: Option<&Bound<'py, PyAny>>,
     solver: &Bound<'py, PyAny>,
+    prove: bool,
 ) -> PyResult<Rows<'py>> {
     if points.is_some() && dt.is_some() {
         return Err(refused(py, "trace takes points or dt, and not both", "points", None, "either points or dt"));
     }
-    let backend = backend_of(solver)?;
     let (points, dt) = (points.map(points_of).transpose()?, optional_number("dt", dt)?);
+    if prove {
+        let prover = prover_of(solver)?;
+        let times = dt.map_or(Times::Number(points.unwrap_or(TRACE_POINTS)), Times::Every);
+        let rows = threads::aside(py, move |stop| {
+            let bounded = |point: Result<EnclosedPoint, Error>| -> Result<Vec<f64>, Failure> {
+                stop.here();
+                let EnclosedPoint { point, certificate } = point?;
+                let bounds = [certificate.error_bound(), certificate.attitude_error_bound()];
+                Ok(point.numbers().into_iter().chain(bounds).collect())
+            };
+            enclosed_points(&prover, &toss, times)?.map(bounded).collect::<Result<Vec<_>, _>>()
+        })?;
+        return Ok(PyArray2::from_vec2(py, &rows)?);
+    }
+    let backend = backend_of(solver)?;
     let flight = threads::aside(py, move |stop| {
         let solver = Stopping { solver: backend.solver(), stop };
         match (points, dt) {

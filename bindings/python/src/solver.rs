@@ -1,6 +1,6 @@
 //! Solvers by name, with their settings.
 
-use ::toss::{Backend, Formulation, Registry, SolverConfig, Stepping};
+use ::toss::{Backend, Formulation, QuaternionSolver, Registry, SolverConfig, Stepping, TAYLOR};
 use dynamics::StepControl;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -173,4 +173,15 @@ pub(crate) fn solvers() -> Vec<(String, String, Vec<&'static str>, Vec<&'static 
         (entry.name().to_owned(), entry.summary().to_owned(), schemes, formulations)
     };
     Registry::standard().entries().iter().map(row).collect()
+}
+
+/// The solver that proves by integration, as an argument asks for. Its scheme is taylor unless it has another.
+pub(crate) fn prover_of(value: &Bound<'_, PyAny>) -> PyResult<QuaternionSolver> {
+    let config = config_of(value)?;
+    if config.name() != QuaternionSolver::NAME {
+        return Err(malformed("solver", config.name(), "quaternion, which alone proves by integration"));
+    }
+    let config = if config.scheme().is_none() { config.with_scheme(TAYLOR.name()) } else { config };
+    let settings = config.settings(Registry::standard().entries()).map_err(Failure::from)?;
+    Ok(QuaternionSolver::new(settings.stepping, settings.formulation))
 }

@@ -7,10 +7,7 @@ use ::toss::report::{self, Comparison, candidates};
 use ::toss::sampling::{
     Coordinate, LongFlightLine, Method, MethodErrors, Sampler, Space, first_node, listed_cone_angles, map_nodes,
 };
-use ::toss::{
-    Backend, ExactSolver, Formulation, QuaternionSolver, Registry, Sensitivity, Solver as _, Stepping, TAYLOR, Toss,
-    Verdict,
-};
+use ::toss::{Backend, ExactSolver, Formulation, Registry, Sensitivity, Solver as _, Stepping, Toss, Verdict};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -20,7 +17,7 @@ use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed};
 use crate::given::{count, number, optional_number, text};
 use crate::plans::{Plan, plan_of};
-use crate::solver::{backend_of, config_of};
+use crate::solver::{backend_of, prover_of};
 use crate::space::space_of;
 use crate::threads::{self, Stop, threads_of};
 use crate::toss::toss_of;
@@ -209,13 +206,7 @@ pub(crate) fn sensitivity(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: 
 pub(crate) fn prove(py: Python<'_>, toss: &Bound<'_, PyAny>, solver: &Bound<'_, PyAny>) -> PyResult<String> {
     let given = crate::given::object::<crate::toss::Toss>("toss", toss, "a Toss")?.get();
     let (toss, rounding) = (given.toss, given.rounding());
-    let config = config_of(solver)?;
-    if config.name() != QuaternionSolver::NAME {
-        return Err(malformed("solver", config.name(), "quaternion, which alone proves by integration"));
-    }
-    let config = if config.scheme().is_none() { config.with_scheme(TAYLOR.name()) } else { config };
-    let settings = config.settings(Registry::standard().entries()).map_err(Failure::from)?;
-    let solver = QuaternionSolver::new(settings.stepping, settings.formulation);
+    let solver = prover_of(solver)?;
     let found =
         threads::aside(py, move |_| Ok(report::Landing::integrated(&toss, &solver)?.rounded(&toss, &rounding)?));
     json(&found?)

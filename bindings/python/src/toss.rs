@@ -16,9 +16,9 @@ use crate::given::{no_others, object, quantities, quantity, refused_value, vecto
 ///
 /// Parameters
 /// ----------
-/// rate : sequence of 3 floats
-///     Angular velocity at launch in rad/s, along the axes of the body. It and all other quantities may also be texts with a
-///     unit, such as ``"38rev/s"``, or values with a unit of pint, astropy or unyt.
+/// rate : sequence of 3 floats, optional
+///     Angular velocity at launch in rad/s, along the axes of the body; this or ``turn`` with ``psi`` is needed. It and all
+///     other quantities may also be texts with a unit, such as ``"38rev/s"``, or values with a unit of pint, astropy or unyt.
 /// speed : float, optional
 ///     Upward speed at launch in m/s; this or ``time`` is needed.
 /// time : float, optional
@@ -31,6 +31,9 @@ use crate::given::{no_others, object, quantities, quantity, refused_value, vecto
 ///     Turn about the lab's x axis before the launch in rad; a positive one leans the normal towards -y.
 /// attitude : sequence of 4 floats or scipy Rotation, optional
 ///     Attitude at launch instead of a tilt, as the quaternion (w, x, y, z) from the body to the laboratory.
+/// turn, psi : float, optional
+///     Of a coin, instead of a rate: the rate in rad/s at which its normal turns about the angular momentum, and the angle in
+///     rad between both.
 /// body : str or Body
 ///     A name of the catalogue, or a body; the paper's coin by default.
 #[pyclass(frozen, eq, module = "unfair_toss")]
@@ -50,27 +53,27 @@ impl PartialEq for Toss {
 #[pymethods]
 impl Toss {
     #[new]
-    #[pyo3(signature = (rate, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, body=None, **others), text_signature = "(rate, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, body=None)")]
+    #[pyo3(signature = (rate=None, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, turn=None, psi=None, body=None, **others), text_signature = "(rate=None, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, turn=None, psi=None, body=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         py: Python<'_>,
-        rate: &Bound<'_, PyAny>,
+        rate: Option<&Bound<'_, PyAny>>,
         speed: Option<&Bound<'_, PyAny>>,
         time: Option<&Bound<'_, PyAny>>,
         gravity: Option<&Bound<'_, PyAny>>,
         drop: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
+        turn: Option<&Bound<'_, PyAny>>,
+        psi: Option<&Bound<'_, PyAny>>,
         body: Option<&Bound<'_, PyAny>>,
         others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         no_others::<Self>(py, others)?;
-        let (mut given, given_rate) = (Thrown::default(), rate);
-        const RATE: &str = "a sequence of 3 real numbers";
-        let parts = quantities("rate", rate, RATE)?;
-        let rate = parts.iter().map(|part| part.si()).collect::<Vec<f64>>().try_into();
-        let rate: [f64; 3] = rate.map_err(|_| refused_value("rate", given_rate, RATE))?;
-        given.put(Field::Rate, parts).map_err(Failure::from)?;
+        let mut given = Thrown::default();
+        rate.map(|rate| put_rate(&mut given, rate)).transpose()?;
+        put_number(&mut given, Field::Turn, turn)?;
+        put_number(&mut given, Field::Psi, psi)?;
         put_number(&mut given, Field::Speed, speed)?;
         put_number(&mut given, Field::Time, time)?;
         put_number(&mut given, Field::Gravity, gravity)?;
@@ -80,7 +83,7 @@ impl Toss {
             Some(body) => body_of(body)?,
             None => Py::new(py, Body::of_name("paper".to_owned(), "body")?)?,
         };
-        let toss = ::toss::Toss::new(body.get().body, launch(&given, rate, &body.get().body)?);
+        let toss = ::toss::Toss::new(body.get().body, launch(&given, &body.get().body)?);
         Ok(Self { toss, body, given })
     }
 
@@ -115,11 +118,11 @@ impl Toss {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let mut text = format!("Toss({}", self.given_rate(py)?.repr()?);
-        for (name, value) in self.keywords(py)?.iter() {
-            text += &format!(", {name}={}", value.repr()?);
-        }
-        Ok(text + ")")
+        let rate = self.given_rate(py)?.map(|rate| Ok::<_, PyErr>(rate.repr()?.to_string())).transpose()?;
+        let keywords = self.keywords(py)?;
+        let keywords = keywords.iter().map(|(name, value)| Ok(format!("{name}={}", value.repr()?)));
+        let arguments = rate.into_iter().map(Ok).chain(keywords).collect::<PyResult<Vec<_>>>()?;
+        Ok(format!("Toss({})", arguments.join(", ")))
     }
 
     fn __hash__(&self) -> u64 {
@@ -129,15 +132,16 @@ impl Toss {
         self.rate().iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
     }
 
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((Bound<'py, PyList>,), Bound<'py, PyDict>)> {
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((Option<Bound<'py, PyList>>,), Bound<'py, PyDict>)> {
         Ok(((self.given_rate(py)?,), self.keywords(py)?))
     }
 }
 
 impl Toss {
-    fn given_rate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+    fn given_rate<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyList>>> {
         let parts = self.given.numbers(Field::Rate).iter().map(|part| written(py, *part));
-        PyList::new(py, parts.collect::<PyResult<Vec<_>>>()?)
+        let parts = parts.collect::<PyResult<Vec<_>>>()?;
+        Some(parts).filter(|parts| !parts.is_empty()).map(|parts| PyList::new(py, parts)).transpose()
     }
 
     /// What the units of its numbers rounded.
@@ -160,15 +164,26 @@ impl Toss {
     }
 }
 
-/// The launch of `body`, at `rate`.
-fn launch(given: &Thrown, rate: [f64; 3], body: &::toss::Body) -> PyResult<Launch> {
+/// The launch of `body`.
+fn launch(given: &Thrown, body: &::toss::Body) -> PyResult<Launch> {
     // Each component of the rate has a field of its own.
-    if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
-        let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
+    if let Some(axis) = given.numbers(Field::Rate).iter().position(|rate| !rate.si().is_finite()) {
+        let value = given.numbers(Field::Rate)[axis].si();
+        let fault = InputError::OutOfRange { field: "rate", value, valid: "finite" };
         return Err(Failure::from(fault).element(axis as u64).into());
     }
     let launch = given.time_of_flight().and_then(|time| given.launch(body, time));
     Ok(launch.map_err(Failure::from)?)
+}
+
+/// Gives the body rate.
+fn put_rate(given: &mut Thrown, rate: &Bound<'_, PyAny>) -> PyResult<()> {
+    const RATE: &str = "a sequence of 3 real numbers";
+    let parts = quantities("rate", rate, RATE)?;
+    if parts.len() != 3 {
+        return Err(refused_value("rate", rate, RATE));
+    }
+    Ok(given.put(Field::Rate, parts).map_err(Failure::from)?)
 }
 
 /// Gives `field` by the argument of its name.

@@ -125,6 +125,7 @@ def test_every_option_has_a_keyword_or_a_reason(command, program):
 RATE = ("--rate", "20,3,30", "--speed", "2.4")
 TOSS = ut.Toss((20.0, 3.0, 30.0), speed=2.4)
 AXES = ("--rate-x", "20:60:9", "--rate-y", "0", "--rate-z", "5:15:5", "--speed", "3:5:7")
+FIG4 = ut.Space.named("paper-fig4")
 SPACE = ut.Space(rate_x=(20, 60, 9), rate_y=0, rate_z=(5, 15, 5), speed=(3, 5, 7))
 
 
@@ -238,3 +239,23 @@ def test_ends_of_intervals_are_shown_with_all_digits():
     assert repr(found.heads.tolist()[-1][0]) in repr(found).replace("\n", "")
     shown = ut.results._short(np.array([1 / 3, 2 / 3]))
     assert [float(text) for text in shown.strip("[]").split()] == [1 / 3, 2 / 3]
+
+
+def test_proofs_by_integration_are_those_of_the_command_line(ask):
+    toss = ut.Toss((20.0, 0.0, 30.0), speed=2.4, body="us-quarter")
+    options = ("--solver", "quaternion", "--prove")
+    points = ask("trace", "--coin", "us-quarter", "--rate", "20,0,30", "--speed", "2.4", "--points", "5", *options)["points"]
+    found = ut.trace(toss, 5, solver="quaternion", prove=True)
+    for name in ("error_bound", "attitude_error_bound", "cos_tilt"):
+        assert getattr(found, name).tolist() == [point[name] for point in points]
+    assert (np.abs(found.cos_tilt - ut.trace(toss, 5).cos_tilt) <= found.error_bound).all()
+    assert ut.trace(toss, 5).error_bound is None and "error_bound" in found.to_pandas()
+    answer = ask("probability", "--space", "paper-fig4", "--method", "random", "--points", "300", *options)
+    proven = ut.probability(FIG4, ut.Plan.random(300), solver="quaternion", prove=True)
+    assert (proven.heads, proven.certified, proven.integrated_by) == (answer["heads"], answer["certified"], answer["integrated_by"])
+    assert proven.certified and sum(proven.integrated_by.values()) == 300 and proven.proven_by is None
+    assert not ut.probability(FIG4, ut.Plan.random(300), solver="quaternion").certified
+    for settings, field in [({"solver": "gamma"}, "solver"), ({"solver": None}, "prove")]:
+        with pytest.raises(ut.errors.MalformedError) as caught:
+            ut.probability(FIG4, ut.Plan.random(300), prove=True, **settings)
+        assert caught.value.field == field

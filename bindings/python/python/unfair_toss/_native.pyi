@@ -88,7 +88,7 @@ class Body:
 class Toss:
     def __new__(
         cls,
-        rate: _Vector,
+        rate: _Vector | None = None,
         *,
         speed: _Quantity | None = None,
         time: _Quantity | None = None,
@@ -96,6 +96,8 @@ class Toss:
         drop: _Quantity | None = None,
         tilt: _Quantity | None = None,
         attitude: _Quaternion | None = None,
+        turn: _Quantity | None = None,
+        psi: _Quantity | None = None,
         body: str | Body | None = None,
     ) -> Toss: ...
     @property
@@ -111,7 +113,7 @@ class Toss:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[list[float]], dict[str, Any]]: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[list[float] | None], dict[str, Any]]: ...
 
 @final
 class Solver:
@@ -143,13 +145,14 @@ class Solver:
 class Batch:
     def __new__(
         cls,
-        body: str | Body,
+        bodies: list[tuple[str | Body, int | None]],
         *,
         gravity: float | None,
         drop: float | None,
         tilt: float | None,
         attitude: _Quaternion | npt.NDArray[np.generic] | None,
-        varying: Sequence[bool],
+        varying: Sequence[int],
+        precesses: bool,
         timed: bool,
         solver: str | Solver | None,
         threads: int | None,
@@ -270,7 +273,7 @@ def rate_of_precession(turn: _Quantity, psi: _Quantity, body: str | Body) -> tup
 def power(share: float, sd: float, power: float, people: int | None, flips: int | None) -> _Fields: ...
 def same_side_bias(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body) -> _Fields: ...
 def trace(
-    toss: Toss, points: int | None, dt: _Quantity | None, solver: str | Solver
+    toss: Toss, points: int | None, dt: _Quantity | None, solver: str | Solver, prove: bool
 ) -> npt.NDArray[np.float64]: ...
 def solve(
     toss: Toss, times: _Column, solver: str | Solver
@@ -284,5 +287,7 @@ def plan(
     scheme: str | None,
 ) -> _Fields: ...
 def tally(space: Space, plan: Plan, start: int, end: int, threads: int | None) -> Tally: ...
-def estimate_by_solver(space: Space, plan: Plan, solver: str | Solver, threads: int | None) -> _Fields: ...
+def estimate_by_solver(
+    space: Space, plan: Plan, solver: str | Solver, threads: int | None, prove: bool
+) -> _Fields: ...
 def estimate_by_accuracy(space: Space, accuracy: float | None, threads: int | None) -> _Fields: ...

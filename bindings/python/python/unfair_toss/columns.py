@@ -1,4 +1,4 @@
-"""Many launches of one body, as columns that broadcast."""
+"""Many launches, as columns that broadcast."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import Body, Solver
-from .launches import Attitudes, Launches
+from .launches import Attitudes, Bodies, Launches
 from .results import ShownAsTable
 
 
@@ -62,15 +62,32 @@ class Labelled(Protocol):
 _Labels = TypeVar("_Labels", bound=Labelled)
 
 
+class _Dimensioned(Labelled, Protocol):
+    """An array of xarray."""
+
+    @property
+    def dims(self) -> Any: ...
+
+
+_Array = TypeVar("_Array", bound=_Dimensioned)
+_Frame = TypeVar("_Frame", covariant=True)
+
+
+class _Framed(Protocol[_Frame]):
+    """A series of pandas, and its frame."""
+
+    def to_frame(self) -> _Frame: ...
+
+
 class OfColumns(Protocol[_Number]):
     """A function of columns: of numbers it gives a number, of what has labels the same, of arrays an array."""
 
     @overload
-    def __call__(  # type: ignore[overload-overlap]
+    def __call__(
         self,
-        rate_x: _One,
-        rate_y: _One,
-        rate_z: _One,
+        rate_x: _One | None = None,
+        rate_y: _One | None = None,
+        rate_z: _One | None = None,
         speed: _One | None = None,
         *,
         time: _One | None = None,
@@ -78,18 +95,20 @@ class OfColumns(Protocol[_Number]):
         drop: _One | None = None,
         tilt: _One | None = None,
         attitude: Attitudes | None = None,
-        body: str | Body = "paper",
+        turn: _One | None = None,
+        psi: _One | None = None,
+        body: str | Body | None = None,
         solver: str | Solver | None = None,
         threads: int | None = None,
         out: None = None,
     ) -> _Number: ...
 
     @overload
-    def __call__(  # type: ignore[overload-overlap]
+    def __call__(
         self,
-        rate_x: _Labels | _One,
-        rate_y: _Labels | _One,
-        rate_z: _Labels | _One,
+        rate_x: _Labels | _One | None = None,
+        rate_y: _Labels | _One | None = None,
+        rate_z: _Labels | _One | None = None,
         speed: _Labels | _One | None = None,
         *,
         time: _Labels | _One | None = None,
@@ -97,7 +116,10 @@ class OfColumns(Protocol[_Number]):
         drop: _Labels | _One | None = None,
         tilt: _Labels | _One | None = None,
         attitude: Attitudes | None = None,
-        body: str | Body = "paper",
+        turn: _Labels | _One | None = None,
+        psi: _Labels | _One | None = None,
+        body: _Labels | str | Body | None = None,
+        moments: _Labels | None = None,
         solver: str | Solver | None = None,
         threads: int | None = None,
         out: None = None,
@@ -106,9 +128,9 @@ class OfColumns(Protocol[_Number]):
     @overload
     def __call__(
         self,
-        rate_x: npt.ArrayLike,
-        rate_y: npt.ArrayLike,
-        rate_z: npt.ArrayLike,
+        rate_x: npt.ArrayLike | None = None,
+        rate_y: npt.ArrayLike | None = None,
+        rate_z: npt.ArrayLike | None = None,
         speed: npt.ArrayLike | None = None,
         *,
         time: npt.ArrayLike | None = None,
@@ -116,16 +138,114 @@ class OfColumns(Protocol[_Number]):
         drop: npt.ArrayLike | None = None,
         tilt: npt.ArrayLike | None = None,
         attitude: Attitudes | None = None,
-        body: str | Body = "paper",
+        turn: npt.ArrayLike | None = None,
+        psi: npt.ArrayLike | None = None,
+        body: Bodies | None = None,
+        moments: npt.ArrayLike | None = None,
         solver: str | Solver | None = None,
         threads: int | None = None,
         out: npt.NDArray[_Number] | None = None,
     ) -> npt.NDArray[_Number]: ...
 
 
+class OfAttitudes(Protocol):
+    """The same of attitudes: of a series of pandas it gives a frame."""
+
+    @overload
+    def __call__(
+        self,
+        rate_x: _One | None = None,
+        rate_y: _One | None = None,
+        rate_z: _One | None = None,
+        speed: _One | None = None,
+        *,
+        time: _One | None = None,
+        gravity: _One | None = None,
+        drop: _One | None = None,
+        tilt: _One | None = None,
+        attitude: Attitudes | None = None,
+        turn: _One | None = None,
+        psi: _One | None = None,
+        body: str | Body | None = None,
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: npt.NDArray[np.float64] | None = None,
+    ) -> npt.NDArray[np.float64]: ...
+
+    @overload
+    def __call__(
+        self,
+        rate_x: _Array | _One | None = None,
+        rate_y: _Array | _One | None = None,
+        rate_z: _Array | _One | None = None,
+        speed: _Array | _One | None = None,
+        *,
+        time: _Array | _One | None = None,
+        gravity: _Array | _One | None = None,
+        drop: _Array | _One | None = None,
+        tilt: _Array | _One | None = None,
+        attitude: Attitudes | None = None,
+        turn: _Array | _One | None = None,
+        psi: _Array | _One | None = None,
+        body: _Array | str | Body | None = None,
+        moments: _Array | None = None,
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: None = None,
+    ) -> _Array: ...
+
+    @overload
+    def __call__(
+        self,
+        rate_x: _Framed[_Frame] | _One | None = None,
+        rate_y: _Framed[_Frame] | _One | None = None,
+        rate_z: _Framed[_Frame] | _One | None = None,
+        speed: _Framed[_Frame] | _One | None = None,
+        *,
+        time: _Framed[_Frame] | _One | None = None,
+        gravity: _Framed[_Frame] | _One | None = None,
+        drop: _Framed[_Frame] | _One | None = None,
+        tilt: _Framed[_Frame] | _One | None = None,
+        attitude: Attitudes | None = None,
+        turn: _Framed[_Frame] | _One | None = None,
+        psi: _Framed[_Frame] | _One | None = None,
+        body: _Framed[_Frame] | str | Body | None = None,
+        moments: _Framed[_Frame] | None = None,
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: None = None,
+    ) -> _Frame: ...
+
+    @overload
+    def __call__(
+        self,
+        rate_x: npt.ArrayLike | None = None,
+        rate_y: npt.ArrayLike | None = None,
+        rate_z: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike | None = None,
+        *,
+        time: npt.ArrayLike | None = None,
+        gravity: npt.ArrayLike | None = None,
+        drop: npt.ArrayLike | None = None,
+        tilt: npt.ArrayLike | None = None,
+        attitude: Attitudes | None = None,
+        turn: npt.ArrayLike | None = None,
+        psi: npt.ArrayLike | None = None,
+        body: Bodies | None = None,
+        moments: npt.ArrayLike | None = None,
+        solver: str | Solver | None = None,
+        threads: int | None = None,
+        out: npt.NDArray[np.float64] | None = None,
+    ) -> npt.NDArray[np.float64]: ...
+
+
 def _typed(function: Callable[..., npt.NDArray[_Number]]) -> OfColumns[_Number]:
     """The function itself, to the checkers of types one that tells numbers, arrays and what has labels."""
     return cast("OfColumns[_Number]", function)
+
+
+def _typed_of_attitudes(function: Callable[..., npt.NDArray[np.float64]]) -> OfAttitudes:
+    return cast("OfAttitudes", function)
 
 
 STAGES = ("f64", "double_double", "multiprecision")
@@ -134,9 +254,9 @@ STAGES = ("f64", "double_double", "multiprecision")
 
 @_typed
 def cos_tilt(
-    rate_x: npt.ArrayLike,
-    rate_y: npt.ArrayLike,
-    rate_z: npt.ArrayLike,
+    rate_x: npt.ArrayLike | None = None,
+    rate_y: npt.ArrayLike | None = None,
+    rate_z: npt.ArrayLike | None = None,
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
@@ -144,7 +264,10 @@ def cos_tilt(
     drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
     attitude: Attitudes | None = None,
-    body: str | Body = "paper",
+    turn: npt.ArrayLike | None = None,
+    psi: npt.ArrayLike | None = None,
+    body: Bodies | None = None,
+    moments: npt.ArrayLike | None = None,
     solver: str | Solver | None = None,
     threads: int | None = None,
     out: npt.NDArray[np.float64] | None = None,
@@ -154,8 +277,8 @@ def cos_tilt(
     Parameters
     ----------
     rate_x, rate_y, rate_z : array_like
-        Angular velocity at launch in rad/s, along the axes of the body. These columns and the next broadcast against
-        each other; contiguous ones of float64 are read in place. Columns of pint, astropy or unyt are converted to SI
+        Angular velocity at launch in rad/s, along the axes of the body; these or ``turn`` and ``psi``. All columns broadcast
+        against each other; contiguous ones of float64 are read in place. Columns of pint, astropy or unyt are converted to SI
         units, and so are those of xarray and pandas with ``attrs["units"]``; a single quantity may be a text with a unit,
         such as ``"38rev/s"``.
     speed : array_like, optional
@@ -163,18 +286,22 @@ def cos_tilt(
     time : array_like, optional
         Time of flight in s, instead of a speed.
     gravity : array_like, optional
-        In m/s²; 9.81 by default. It, the drop, the tilt and the attitude may be columns, too. cos θ of coins is then right to
-        1e-15.
+        In m/s²; 9.81 by default. Where it, the drop, the tilt, the attitude or the body vary, cos θ of coins is right to 1e-15.
     drop : array_like, optional
-        How far below its launch the body lands, in m; at the same height by default. Attitudes at landing, and bodies that are
-        not symmetric, are solved one by one with a drop.
+        How far below its launch the body lands, in m; at the same height by default. Bodies that are not symmetric are solved
+        one by one with a drop.
     tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
     attitude : array_like of shape (..., 4) or scipy Rotation, optional
         Attitude at launch instead of a tilt: one quaternion (w, x, y, z) from the body to the laboratory, or a column of
         them. Columns of xarray have the dimension "component", those of pandas the columns w, x, y and z.
-    body : str or Body
-        A name of the catalogue (``bodies()``), or a body.
+    turn, psi : array_like, optional
+        Of coins, instead of rates: the rate in rad/s at which the normal turns about the angular momentum, and the angle in rad
+        between both.
+    body : str or Body, or array_like of these, optional
+        A name of the catalogue (``bodies()``), or a body; the paper's coin by default. Or a column, in which several may be.
+    moments : array_like of shape (..., 2) or (..., 3), optional
+        Moments I1, I3 of coins or I1, I2, I3 in kg m², instead of a body.
     solver : str or Solver, optional
         By default, many coins at once are solved in the processor's vector registers, with an error of at most 6e-16.
         ``"exact"`` is the exact motion to an ulp, toss by toss; other names are those of integrators.
@@ -202,15 +329,15 @@ def cos_tilt(
     -----
     Python's lock is released meanwhile. Arrays must not be written by another thread at the same time.
     """
-    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
+    launches = Launches((rate_x, rate_y, rate_z), speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads)
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
 @_typed
 def outcome(
-    rate_x: npt.ArrayLike,
-    rate_y: npt.ArrayLike,
-    rate_z: npt.ArrayLike,
+    rate_x: npt.ArrayLike | None = None,
+    rate_y: npt.ArrayLike | None = None,
+    rate_z: npt.ArrayLike | None = None,
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
@@ -218,7 +345,10 @@ def outcome(
     drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
     attitude: Attitudes | None = None,
-    body: str | Body = "paper",
+    turn: npt.ArrayLike | None = None,
+    psi: npt.ArrayLike | None = None,
+    body: Bodies | None = None,
+    moments: npt.ArrayLike | None = None,
     solver: str | Solver | None = None,
     threads: int | None = None,
     out: npt.NDArray[np.int8] | None = None,
@@ -230,7 +360,7 @@ def outcome(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads
         As for ``cos_tilt``.
     out : ndarray of int8, optional
         Array for the result, of the broadcast shape. After an exception its content is unspecified.
@@ -245,14 +375,15 @@ def outcome(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
+    launches = Launches((rate_x, rate_y, rate_z), speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads)
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
+@_typed_of_attitudes
 def attitude(
-    rate_x: npt.ArrayLike,
-    rate_y: npt.ArrayLike,
-    rate_z: npt.ArrayLike,
+    rate_x: npt.ArrayLike | None = None,
+    rate_y: npt.ArrayLike | None = None,
+    rate_z: npt.ArrayLike | None = None,
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
@@ -260,7 +391,10 @@ def attitude(
     drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
     attitude: Attitudes | None = None,
-    body: str | Body = "paper",
+    turn: npt.ArrayLike | None = None,
+    psi: npt.ArrayLike | None = None,
+    body: Bodies | None = None,
+    moments: npt.ArrayLike | None = None,
     solver: str | Solver | None = None,
     threads: int | None = None,
     out: npt.NDArray[np.float64] | None = None,
@@ -269,8 +403,9 @@ def attitude(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
-        As for ``cos_tilt``; the default solver has an error of at most 1e-15 rad.
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads
+        As for ``cos_tilt``; the default solver has an error of at most 1e-15 rad, or 2e-15 rad of coins
+        that differ in more than rates and speeds.
     out : ndarray of float64, optional
         Array for the result, of the broadcast shape and 4. After an exception its content is unspecified.
 
@@ -285,14 +420,14 @@ def attitude(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
+    launches = Launches((rate_x, rate_y, rate_z), speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads)
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
 def count(
-    rate_x: npt.ArrayLike,
-    rate_y: npt.ArrayLike,
-    rate_z: npt.ArrayLike,
+    rate_x: npt.ArrayLike | None = None,
+    rate_y: npt.ArrayLike | None = None,
+    rate_z: npt.ArrayLike | None = None,
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
@@ -300,7 +435,10 @@ def count(
     drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
     attitude: Attitudes | None = None,
-    body: str | Body = "paper",
+    turn: npt.ArrayLike | None = None,
+    psi: npt.ArrayLike | None = None,
+    body: Bodies | None = None,
+    moments: npt.ArrayLike | None = None,
     solver: str | Solver | None = None,
     threads: int | None = None,
 ) -> Counts:
@@ -308,7 +446,7 @@ def count(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads
         As for ``cos_tilt``.
 
     Returns
@@ -321,7 +459,7 @@ def count(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
+    launches = Launches((rate_x, rate_y, rate_z), speed, time, gravity, drop, tilt, attitude, turn, psi, body, moments, solver, threads)
     counts = [0] * (4 + len(STAGES))
     for first, columns in launches.blocks():
         counts = [sum(both) for both in zip(counts, launches.batch.count(columns, first), strict=True)]

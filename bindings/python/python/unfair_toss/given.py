@@ -84,6 +84,13 @@ def as_seed(seed: Any, rng: Any) -> int | None:
     return None if value is None else count(name, drawn(value))
 
 
+def truth(field: str, value: object) -> bool:
+    """The argument, if it is True or False."""
+    if isinstance(value, bool):
+        return value
+    raise wrong(field, value, "True or False")
+
+
 def a_function(field: str, value: object) -> None:
     """Refuses what is neither None nor can be called."""
     if value is not None and not callable(value):

@@ -1,16 +1,16 @@
-"""Columns of launches of one body: checked, broadcast, and handed to the kernels in blocks."""
+"""Columns of launches: checked, broadcast, and handed to the kernels in blocks."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import Batch, Body, Solver, number, numbers
-from .errors import MalformedError
+from .errors import MalformedError, MissingError
 from .given import wrong
 from .labels import combined, components
 from .units import PLAIN, plain
@@ -21,9 +21,12 @@ if TYPE_CHECKING:
 Attitudes: TypeAlias = Union[npt.ArrayLike, "Rotation"]
 """One attitude, or a column of them."""
 
+Bodies: TypeAlias = str | Body | Sequence[str | Body] | npt.NDArray[np.object_ | np.str_]
+"""One body, or a column of them."""
+
 Columns = tuple[npt.NDArray[np.float64], ...]
-"""Rates about x, y, z in rad/s and speeds in m/s or times in s; where they vary gravity in m/s², drops in m, tilts in rad,
-and the components of attitudes."""
+"""Rates about x, y, z in rad/s, or turns in rad/s, ψ in rad and 0; speeds in m/s or times in s; where they vary gravity in m/s²,
+drops in m, tilts in rad, the components of attitudes, and the numbers or the moments of bodies."""
 
 _Result = TypeVar("_Result", np.float64, np.int8)
 
@@ -48,22 +51,23 @@ class Launches:
 
     def __init__(
         self,
-        rate_x: npt.ArrayLike,
-        rate_y: npt.ArrayLike,
-        rate_z: npt.ArrayLike,
+        rates: tuple[npt.ArrayLike | None, npt.ArrayLike | None, npt.ArrayLike | None],
         speed: npt.ArrayLike | None,
         time: npt.ArrayLike | None,
         gravity: npt.ArrayLike | None,
         drop: npt.ArrayLike | None,
         tilt: npt.ArrayLike | None,
         attitude: Attitudes | None,
-        body: str | Body,
+        turn: npt.ArrayLike | None,
+        psi: npt.ArrayLike | None,
+        body: Bodies | None,
+        moments: npt.ArrayLike | None,
         solver: str | Solver | None,
         threads: int | None,
     ) -> None:
         if (speed is None) == (time is None):
             raise MalformedError("expected speed or time, and not both", field="speed", valid="either speed or time")
-        given: dict[str, Any] = {"rate_x": rate_x, "rate_y": rate_y, "rate_z": rate_z}
+        given = _turning(rates, turn, psi)
         given |= {"speed": speed} if time is None else {"time": time}
         for name, value in (("gravity", gravity), ("drop", drop), ("tilt", tilt)):
             if value is not None and time is not None and name != "tilt":
@@ -72,12 +76,17 @@ class Launches:
         one_attitude, attitudes = (None, {}) if attitude is None else _attitudes(attitude)
         # Before columns are combined by their labels, which forgets their units.
         given = {name: _without_unit(name, value) for name, value in given.items()}
-        given, self.labels = combined(given | attitudes)
+        bodies, inertia = _bodies(body, moments)
+        given, self.labels = combined(given | attitudes | inertia)
         read = {name: column(name.split(" ")[0], value) for name, value in given.items()}
+        if len(inertia) == 3 and (read["moments 1"] == read["moments 2"]).all():
+            del read["moments 2"]  # Of coins, which the kernels take.
         # What is the same for all launches is no column.
         one = {name: given[name] for name in ("gravity", "drop", "tilt") if name in read and read[name].ndim == 0}
         self.columns = tuple(numbers for name, numbers in read.items() if name not in one)
-        varying = [name in read and name not in one for name in ("gravity", "drop", "tilt", "attitude w")]
+        names = [name.split(" ")[0] for name in read if name not in one]
+        varying = [names.count(name) for name in ("gravity", "drop", "tilt", "attitude")]
+        varying.append(names.count("body") + names.count("moments"))
         try:
             self.shape = np.broadcast_shapes(*(column.shape for column in self.columns))
         except ValueError:
@@ -85,12 +94,13 @@ class Launches:
             raise MalformedError(f"columns of the shapes {shapes} don't broadcast", field="columns") from None
         self.size = math.prod(self.shape)
         self.batch = Batch(
-            body,
+            bodies,
             gravity=one.get("gravity"),
             drop=one.get("drop"),
             tilt=one.get("tilt", 0.0 if varying[2] else None),
             attitude=(1.0, 0.0, 0.0, 0.0) if attitudes else one_attitude,
             varying=varying,
+            precesses=turn is not None,
             timed=time is not None,
             solver=solver,
             threads=threads,
@@ -176,6 +186,76 @@ class Launches:
         if out.flags.c_contiguous and out.flags.aligned and not shared:
             return out, out
         return out, np.empty(shape, dtype)
+
+
+def _turning(rates: tuple[Any, ...], turn: Any, psi: Any) -> dict[str, Any]:
+    """The columns of rates, or of turn and ψ, which have as many."""
+    named = dict(zip(("rate_x", "rate_y", "rate_z"), rates, strict=True))
+    if turn is None and psi is None:
+        for name, value in named.items():
+            if value is None:
+                raise MissingError(f"{name} is missing: expected rates, or turn with psi", field=name, valid="a column of rates")
+        return named
+    for name, value in named.items():
+        if value is not None:
+            raise MalformedError(f"{name} has no effect with turn and psi", field=name, valid="either rates, or turn with psi")
+    for name, value, other in (("turn", turn, "psi"), ("psi", psi, "turn")):
+        if value is None:
+            raise MissingError(f"{name} is missing: {other} needs it", field=name, valid=f"a column, with {other}")
+    return {"turn": turn, "psi": psi, "nothing": 0.0}
+
+
+def _bodies(body: Any, moments: Any) -> tuple[list[tuple[str | Body, int | None]], dict[str, Any]]:
+    """The bodies, each with its place if there are several; and the column of their numbers, or those of moments."""
+    if moments is not None:
+        if body is not None:
+            raise MalformedError("body and moments are the same", field="moments", valid="either body or moments")
+        return _moments(moments)
+    if body is None or isinstance(body, str | Body):
+        return [("paper" if body is None else body, None)], {}
+    valid = "the name of a body, a Body, or a sequence of these"
+    array = np.asarray(body.to_numpy() if hasattr(body, "to_numpy") else body, dtype=object)
+    flat = array.reshape(-1).tolist()
+    # By what they are, as long tables hold the same objects many times.
+    objects = dict(zip(map(id, flat), flat, strict=True))
+    try:
+        places = {one: place for place, one in enumerate(dict.fromkeys(objects.values()))}
+    except TypeError:
+        raise wrong("body", body, valid) from None
+    for one in places:
+        if not isinstance(one, str | Body):
+            first = flat.index(one)
+            message = f"body[{first}] is of type {type(one).__name__}: expected {valid}"
+            raise MalformedError(message, field="body", index=first, valid=valid)
+    found: list[tuple[str | Body, int | None]] = [(one, flat.index(one)) for one in places]
+    place_of = {name: places[one] for name, one in objects.items()}
+    numbers = np.fromiter(map(place_of.__getitem__, map(id, flat)), np.float64, len(flat))
+    if array.ndim == 0:
+        return [(flat[0], None)], {}
+    numbers = numbers.reshape(array.shape)
+    if hasattr(body, "dims"):
+        return found, {"body": body.copy(data=numbers)}
+    return found, {"body": type(body)(numbers, *body.axes) if hasattr(body, "axes") else numbers}
+
+
+def _moments(moments: Any) -> tuple[list[tuple[str | Body, int | None]], dict[str, Any]]:
+    """The body with these moments; or the columns of those of several."""
+    valid = "I1, I3 of coins or I1, I2, I3, or a column of shape (..., 2) or (..., 3)"
+    if isinstance(moments, list | tuple) and all(isinstance(one, str) or not hasattr(one, "__len__") for one in moments):
+        return [(Body.from_moments(moments), None)], {}
+    given = _without_unit("moments", moments)
+    read = column("moments", given)
+    if read.ndim == 0 or read.shape[-1] not in (2, 3):
+        message = f"moments has the shape {read.shape}: expected {valid}"
+        raise MalformedError(message, field="moments", valid=valid)
+    if read.ndim == 1:
+        return [(Body.from_moments(read.tolist()), None)], {}
+    parts = list(np.moveaxis(read, -1, 0))
+    if hasattr(given, "dims"):
+        parts = [given.isel({given.dims[-1]: part}, drop=True) for part in range(len(parts))]
+    elif hasattr(given, "columns"):
+        parts = [given.iloc[:, part] for part in range(len(parts))]
+    return [], {f"moments {part + 1}": column for part, column in enumerate(parts)}
 
 
 def _attitudes(given: Any) -> tuple[npt.NDArray[np.generic] | None, dict[str, Any]]:

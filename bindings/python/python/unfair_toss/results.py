@@ -262,6 +262,8 @@ class Trace(ShownAsTable, _Flight, _HoldsArrays):
     fastest_turn : float
         How fast it turns at most, in rad/s: the rate S/I1 of the normal of a coin about its angular momentum S; of any
         other body the larger one of its rate and of S over its middle moment.
+    error_bound, attitude_error_bound : ndarray of shape (n,), or None
+        With ``prove``, the proven bounds of the errors of cos θ and of the quaternion.
     """
 
     t: npt.NDArray[np.float64]
@@ -271,9 +273,12 @@ class Trace(ShownAsTable, _Flight, _HoldsArrays):
     face: npt.NDArray[np.float64]
     cos_tilt: npt.NDArray[np.float64]
     fastest_turn: float = 0.0
+    error_bound: npt.NDArray[np.float64] | None = None
+    attitude_error_bound: npt.NDArray[np.float64] | None = None
 
     def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
-        names = ("cos_tilt", "attitude", "normal", "face")
+        names = ["cos_tilt", "attitude", "normal", "face"]
+        names += [] if self.error_bound is None else ["error_bound", "attitude_error_bound"]
         angles = zip(("alpha", "beta", "gamma"), self.angles.T, strict=True)
         return {name: getattr(self, name) for name in names} | {name: angle for name, angle in angles}
 

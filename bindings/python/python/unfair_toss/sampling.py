@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._native import Plan, Solver, Space, Tally, count
 from .errors import MalformedError, PartError
-from .given import a_function, an, wrong
+from .given import a_function, an, truth, wrong
 from .planner import Choice, plan_of
 from .results import ShownAsTable
 from .tallies import tally
@@ -42,6 +42,8 @@ class Estimate(ShownAsTable):
         The number of outcomes that each stage of the proof decided.
     plan : Plan
         Which launches were tried.
+    integrated_by : dict of str to int, or None
+        The same of proofs by integration.
     """
 
     probability: float | None
@@ -54,6 +56,7 @@ class Estimate(ShownAsTable):
     certified: bool
     proven_by: dict[str, int] | None = field(hash=False)
     plan: Plan
+    integrated_by: dict[str, int] | None = field(default=None, hash=False)
 
     @property
     def half_width(self) -> float | None:
@@ -134,6 +137,7 @@ def probability(
     *,
     accuracy: float | None = None,
     solver: str | Solver | None = None,
+    prove: bool = False,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     executor: Executor | Callable[[], Any] | None = None,
@@ -153,6 +157,8 @@ def probability(
         Largest acceptable error if no plan is given; 1e-4 by default, 1e-3 for a body that is not symmetric.
     solver : str or Solver, optional
         What decides the outcomes; by default the exact motion, which proves them. It needs a plan, and has no parts.
+    prove : bool
+        Whether each outcome is proven by integration, by the solver ``"quaternion"``.
     threads : int, optional
         Number of threads, with an executor of each worker. By default one per core; with an executor, one.
     progress : callable, optional
@@ -187,6 +193,8 @@ def probability(
         raise wrong("executor", executor, "an executor, or what makes one")
     if retries is not None and executor is None:
         raise MalformedError("retries has no effect without an executor", field="retries", valid="None, or an executor")
+    if truth("prove", prove) and solver is None:
+        raise MalformedError("prove needs the solver 'quaternion'", field="prove", valid="False, or a solver")
     parted = executor is not None or shards is not None or folder is not None
     if plan is None:
         if parted or solver is not None:
@@ -198,9 +206,9 @@ def probability(
     if solver is not None:
         if parted or progress is not None:
             raise MalformedError("a solver has no parts and no progress", field="solver", valid="None, for parts")
-        return Estimate(**_native.estimate_by_solver(space, plan, solver, threads))
+        return Estimate(**_native.estimate_by_solver(space, plan, solver, threads, prove))
     if plan.method == "enclosure" and not parted and progress is None:
-        return Estimate(**_native.estimate_by_solver(space, plan, "exact", threads))
+        return Estimate(**_native.estimate_by_solver(space, plan, "exact", threads, False))
     if not parted:
         return estimate(tally(space, plan, threads=threads, progress=progress))
     # Only here, because what it imports takes as long as all the rest.

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .errors import InputError, MissingError
-from .given import wrong
+from .given import truth, wrong
 from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Power, SameSideBias, Trace, Work, fastest_turn
 from .units import Quantity
@@ -41,9 +41,7 @@ def toss(toss: Toss, solver: str | Solver = "exact", *, prove: bool = False) -> 
     errors.SolveError
         If the solver cannot go on, or does not solve such a body.
     """
-    if not isinstance(prove, bool):
-        raise wrong("prove", prove, "True or False")
-    if prove:
+    if truth("prove", prove):
         proven = json.loads(_native.prove(toss, solver))
         known = {field.name for field in fields(Landing)}
         found = {name: value for name, value in proven.items() if name in known}
@@ -106,7 +104,12 @@ def intervals(toss: Toss, slowest: Quantity = 0.0) -> Intervals:
 
 
 def trace(
-    toss: Toss, points: int | None = None, *, dt: Quantity | None = None, solver: str | Solver = "exact"
+    toss: Toss,
+    points: int | None = None,
+    *,
+    dt: Quantity | None = None,
+    solver: str | Solver = "exact",
+    prove: bool = False,
 ) -> Trace:
     """The flight of a coin or another body at equally spaced times, launch and landing included.
 
@@ -120,6 +123,8 @@ def trace(
         Step of time in s or as in ``"50ms"``; the last time is the landing.
     solver : str or Solver
         The exact motion, or an integrator (``solvers()``).
+    prove : bool
+        Whether the errors at each time are bounded by integration, by the solver ``"quaternion"``.
 
     Returns
     -------
@@ -133,11 +138,12 @@ def trace(
     errors.SolveError
         If the solver cannot go on.
     """
-    rows = _native.trace(toss, points, dt, solver)
-    t, attitude, angles, normal, face, cos_tilt = (
-        np.ascontiguousarray(part) for part in np.split(rows, [1, 5, 8, 11, 14], axis=1)
+    rows = _native.trace(toss, points, dt, solver, truth("prove", prove))
+    t, attitude, angles, normal, face, cos_tilt, *bounds = (
+        np.ascontiguousarray(part) for part in np.split(rows, [1, 5, 8, 11, 14, *([15, 16] if prove else [])], axis=1)
     )
-    return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0], fastest_turn(toss))
+    flight = (t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0], fastest_turn(toss))
+    return Trace(*flight, *(bound[:, 0] for bound in bounds))
 
 
 @overload

@@ -46,18 +46,10 @@ impl Kernel<7, 4> for Attitudes {
 
     #[inline(always)]
     fn end<S: Simd>(&self, [turn, turn_rest, spin, spin_rest, x, y, z]: [Real<S>; 7]) -> [Real<S>; 4] {
-        let ([sin, cos], _) = sin_cos_to_sign(turn, turn_rest);
-        let ([sin_spin, cos_spin], _) = sin_cos_to_sign(spin, spin_rest);
-        let (x, y, z) = (x * sin, y * sin, z * sin);
-        let turned = [
-            cos.mul_add(cos_spin, z * sin_spin),
-            x.mul_add(cos_spin, -(y * sin_spin)),
-            x.mul_add(sin_spin, y * cos_spin),
-            z.mul_add(cos_spin, -(cos * sin_spin)),
-        ];
+        let turned = turned_and_spun([turn, turn_rest], [spin, spin_rest], [x, y, z]);
         match self.start {
             None => turned,
-            Some(start) => product(start, turned),
+            Some([a, b, c, d]) => product([x.constant(a), x.constant(b), x.constant(c), x.constant(d)], turned),
         }
     }
 
@@ -66,11 +58,25 @@ impl Kernel<7, 4> for Attitudes {
     }
 }
 
+/// exp(½ φ ŝ) ⊗ exp(-½ q T ẑ), up to its sign, of φ and q T (quarters of a turn of their halves) with their rests, and the
+/// axis ŝ.
+#[inline(always)]
+pub(super) fn turned_and_spun<S: Simd>(phase: [Real<S>; 2], spin: [Real<S>; 2], axis: [Real<S>; 3]) -> [Real<S>; 4] {
+    let ([sin, cos], _) = sin_cos_to_sign(phase[0], phase[1]);
+    let ([sin_spin, cos_spin], _) = sin_cos_to_sign(spin[0], spin[1]);
+    let [x, y, z] = axis;
+    let (x, y, z) = (x * sin, y * sin, z * sin);
+    [
+        cos.mul_add(cos_spin, z * sin_spin),
+        x.mul_add(cos_spin, -(y * sin_spin)),
+        x.mul_add(sin_spin, y * cos_spin),
+        z.mul_add(cos_spin, -(cos * sin_spin)),
+    ]
+}
+
 /// The quaternion product `left` ⊗ `right`.
 #[inline(always)]
-fn product<S: Simd>(left: [f64; 4], right: [Real<S>; 4]) -> [Real<S>; 4] {
-    let [w, x, y, z] = right;
-    let (a, b, c, d) = (w.constant(left[0]), w.constant(left[1]), w.constant(left[2]), w.constant(left[3]));
+pub(super) fn product<S: Simd>([a, b, c, d]: [Real<S>; 4], [w, x, y, z]: [Real<S>; 4]) -> [Real<S>; 4] {
     [
         a.mul_add(w, -b.mul_add(x, c.mul_add(y, d * z))),
         a.mul_add(x, b.mul_add(w, c.mul_add(z, -(d * y)))),

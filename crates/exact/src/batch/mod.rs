@@ -6,7 +6,7 @@
 //! | cos θ at landing | [`Batch::cos_tilts`] | 4e-16 from horizontal, else 6e-16 |
 //! | proven outcomes | [`Batch::outcomes`], [`Batch::count`] | none |
 //! | attitude at landing | [`Batch::attitudes`] | 1e-15 rad |
-//! | cos θ, each toss with a gravity, drop and attitude of its own | [`varying::Varying`] | 1e-15 |
+//! | cos θ, attitude, each toss with a coin, gravity, drop and attitude of its own | [`varying::Varying`] | 1e-15, 2e-15 rad |
 //! | phases that show heads | [`Batch::heads`] | as stated with each |
 //! | proven outcomes of any rigid body | `Batch<Body>`, by the same names | none |
 //!

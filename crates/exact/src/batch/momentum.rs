@@ -5,7 +5,7 @@
 //! not ordinary, and no kernel solves it. L = (ωx, ωy, k ωz) is the angular momentum divided by I1, Ω² = Lx² + Ly², and
 //! q = (k - 1) ωz. A pair is a rounded value and its rest, the part that rounding has lost.
 
-use dynamics::Tosses;
+use dynamics::{Coin, Tosses};
 use numerics::DoubleDouble;
 use numerics::lanes::{MOST_TURNS, Mask, Real, Simd};
 
@@ -15,7 +15,7 @@ use crate::tilt_terms::terms;
 const LARGEST_SQUARE: f64 = 1e100;
 
 /// Smallest inertia ratio k of ordinary tosses, whose ωz then stays far below the largest f64.
-const SMALLEST_RATIO: f64 = 1e-200;
+pub(super) const SMALLEST_RATIO: f64 = 1e-200;
 
 /// Far below a rest that matters, and far above one in which digits below the range of f64 are missing.
 const NEGLIGIBLE: f64 = 1e-150;
@@ -72,12 +72,17 @@ pub(super) struct Extent<S: Simd> {
 
 impl Constants {
     pub(super) fn new(tosses: &Tosses<'_>) -> Self {
-        let k = tosses.body().exact_inertia_ratio();
+        Self::of(tosses.body(), tosses.gravity())
+    }
+
+    /// Those of a coin and a gravity (m/s²).
+    pub(super) fn of(coin: &Coin, gravity: f64) -> Self {
+        let k = coin.exact_inertia_ratio();
         let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
-        let turns = inverse_pi / tosses.gravity().into();
+        let turns = inverse_pi / gravity.into();
         let spin_turns = turns * (k - 1.0.into());
         // In this range no product with 1/(π g) overflows, and none underflows that counts.
-        let is_ordinary = (1e-50..1e50).contains(&tosses.gravity()) && k.hi() >= SMALLEST_RATIO;
+        let is_ordinary = (1e-50..1e50).contains(&gravity) && k.hi() >= SMALLEST_RATIO;
         Self {
             ratio: [k.hi(), k.lo()],
             turns: [turns.hi(), turns.lo() / turns.hi()],
@@ -97,16 +102,29 @@ impl Constants {
         }
     }
 
-    /// The phase ωL T per unit of ωL v0, in the unit of phases.
-    pub(super) fn phase_of_one(&self) -> f64 {
-        self.turns[0]
+    /// The phase ωL T per unit of ωL v0, in the unit of phases, and its rest divided by it.
+    pub(super) fn phase_of_one(&self) -> [f64; 2] {
+        self.turns
     }
 
     /// The motions after launches with these rates (BF, rad/s) and speeds (m/s), which it adds to `extent`.
     #[inline(always)]
-    pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
-        let [along, along_rest] = x.constant(self.ratio[0]).product_in_range(z);
-        let along_rest = x.constant(self.ratio[1]).mul_add(z, along_rest);
+    pub(super) fn motion<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
+        let ratio = [speed.constant(self.ratio[0]), speed.constant(self.ratio[1])];
+        self.motion_with(ratio, rates, speed, extent)
+    }
+
+    /// The same with other inertia ratios, each with its rest.
+    #[inline(always)]
+    pub(super) fn motion_with<S: Simd>(
+        &self,
+        ratio: [Real<S>; 2],
+        [x, y, z]: [Real<S>; 3],
+        speed: Real<S>,
+        extent: &mut Extent<S>,
+    ) -> Motion<S> {
+        let [along, along_rest] = ratio[0].product_in_range(z);
+        let along_rest = ratio[1].mul_add(z, along_rest);
         let (x_squared, y_squared, along_squared) =
             (x.product_in_range(x), y.product_in_range(y), along.product_in_range(along));
         let along_squared_rest = (along + along).mul_add(along_rest, along_squared[1]);
@@ -189,15 +207,15 @@ impl<S: Simd> Extent<S> {
     /// keeps.
     #[inline(always)]
     pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
-        self.are_ordinary(constants).everywhere()
+        self.are_ordinary(self.squared.constant(constants.most_turns)).everywhere()
     }
 
-    /// In which lanes all tosses are ordinary.
+    /// In which lanes all tosses are ordinary, with the largest phase ωL T of these.
     #[inline(always)]
-    pub(super) fn are_ordinary(&self, constants: &Constants) -> Mask<S> {
+    pub(super) fn are_ordinary(&self, most_turns: Real<S>) -> Mask<S> {
         let Self { squared, inverse, turns, sign } = *self;
         let scale = squared.constant(1.0 / LARGEST_SQUARE);
-        let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
+        let extent = squared.mul_add(scale, inverse * scale) + turns / most_turns;
         extent.abs().at_most(squared.constant(1.0).times_sign_of(sign))
     }
 }
@@ -246,7 +264,7 @@ impl TiltTerms {
 mod tests {
     use std::f64::consts::PI;
 
-    use dynamics::{Attitude, Coin};
+    use dynamics::Attitude;
 
     use super::*;
 

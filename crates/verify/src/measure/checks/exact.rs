@@ -234,7 +234,7 @@ fn varied_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
     let rate = toss.launch.rate();
     let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
     let mut found = [0.0];
-    Varying { coin: coin(toss)?.coin, rates, flights, attitudes }.cos_tilts(&mut found).expect("a valid coin");
+    Varying { coins: coin(toss)?.coin.into(), rates, flights, attitudes }.cos_tilts(&mut found);
     Ok(if found[0].is_nan() { 0.0 } else { reference.cos_tilt_error(found[0]) })
 }
 
