@@ -24,7 +24,7 @@ const DECLINED: f64 = 1e3;
 pub(crate) fn tosses(number: u64) -> Result<Vec<Toss>, InputError> {
     let simple = simple()?;
     let drawn = (simple.len() as u64..number).map(|index| drawn(&mut stream(SEED, index), index));
-    simple.into_iter().map(Ok).chain(drawn).map(|toss| toss.map(Toss::from)).collect()
+    simple.into_iter().map(Ok).chain(drawn).collect()
 }
 
 /// The solver of `entry` with a scheme, at a tolerance if the scheme takes one.
