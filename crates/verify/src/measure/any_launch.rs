@@ -118,7 +118,7 @@ fn drawn_body(rng: &mut ChaCha8Rng, index: u64) -> Result<Toss, InputError> {
         _ => Body::from_moments(moments),
     };
     let rate = rate(rng);
-    let phase = if index % 40 == 0 { 0.0 } else { decades(rng, -2.0, 1.5) };
+    let phase = if index.is_multiple_of(40) { 0.0 } else { decades(rng, -2.0, 1.5) };
     let launch = Launch::new(rate, TimeOfFlight::Given(phase / rate.norm()))?;
     Ok(Toss { body: body?, launch: launch.with_attitude(attitude(rng, index)?) })
 }
