@@ -165,7 +165,10 @@ fn first_failing<R>(
 
 fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
     let mut sum = Counts::default();
-    launches.by_runs(range, |launches, run| Ok(sum = added(sum, launches.count(run)?)))?;
+    launches.by_runs(range, |launches, run| {
+        sum = added(sum, launches.count(run)?);
+        Ok(())
+    })?;
     Ok(sum)
 }
 

@@ -431,7 +431,10 @@ impl Launches<'_> {
     pub(crate) fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
         let (mut sum, start) = (Counts::default(), range.start);
         if self.of.decides_one_by_one() {
-            self.each(range, |_, _, toss| Ok(sum = added(sum, counted(self.of.verdict(toss)?))))?;
+            self.each(range, |_, _, toss| {
+                sum = added(sum, counted(self.of.verdict(toss)?));
+                Ok(())
+            })?;
             return Ok(sum);
         }
         if self.of.varies() {
@@ -439,7 +442,10 @@ impl Launches<'_> {
                 let heads = cos_tilts.iter().map(|cos| u64::from(*cos > PROVEN_ABOVE)).sum::<u64>();
                 let tails = cos_tilts.iter().map(|cos| u64::from(*cos < -PROVEN_ABOVE)).sum::<u64>();
                 sum = added(sum, [heads, tails, 0, 0, heads + tails, 0, 0]);
-                self.each(open(start, cos_tilts), |_, _, toss| Ok(sum = added(sum, counted(self.of.verdict(toss)?))))
+                self.each(open(start, cos_tilts), |_, _, toss| {
+                    sum = added(sum, counted(self.of.verdict(toss)?));
+                    Ok(())
+                })
             })?;
             return Ok(sum);
         }
@@ -475,8 +481,7 @@ impl Launches<'_> {
 
 /// The places of the launches from `start` on whose cos θ does not prove an outcome.
 fn open(start: usize, cos_tilts: &[f64]) -> impl Iterator<Item = usize> {
-    // Nothing is above a NaN.
-    let is_open = |cos_tilt: &f64| !(cos_tilt.abs() > PROVEN_ABOVE);
+    let is_open = |cos_tilt: &f64| cos_tilt.is_nan() || cos_tilt.abs() <= PROVEN_ABOVE;
     cos_tilts.iter().enumerate().filter(move |(_, cos_tilt)| is_open(cos_tilt)).map(move |(place, _)| start + place)
 }
 

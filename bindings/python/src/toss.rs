@@ -44,6 +44,9 @@ pub(crate) struct Toss {
     given: Thrown,
 }
 
+/// The argument `rate`, if it was given.
+type Rate<'py> = Option<Bound<'py, PyList>>;
+
 impl PartialEq for Toss {
     fn eq(&self, other: &Self) -> bool {
         self.toss == other.toss
@@ -132,13 +135,13 @@ impl Toss {
         self.rate().iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
     }
 
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((Option<Bound<'py, PyList>>,), Bound<'py, PyDict>)> {
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((Rate<'py>,), Bound<'py, PyDict>)> {
         Ok(((self.given_rate(py)?,), self.keywords(py)?))
     }
 }
 
 impl Toss {
-    fn given_rate<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyList>>> {
+    fn given_rate<'py>(&self, py: Python<'py>) -> PyResult<Rate<'py>> {
         let parts = self.given.numbers(Field::Rate).iter().map(|part| written(py, *part));
         let parts = parts.collect::<PyResult<Vec<_>>>()?;
         Some(parts).filter(|parts| !parts.is_empty()).map(|parts| PyList::new(py, parts)).transpose()

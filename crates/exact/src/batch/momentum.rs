@@ -207,16 +207,23 @@ impl<S: Simd> Extent<S> {
     /// keeps.
     #[inline(always)]
     pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
-        self.are_ordinary(self.squared.constant(constants.most_turns)).everywhere()
+        let one = self.squared.constant(1.0);
+        let extent = self.of_squares() + self.turns / self.squared.constant(constants.most_turns);
+        extent.abs().at_most(one.times_sign_of(self.sign)).everywhere()
     }
 
-    /// In which lanes all tosses are ordinary, with the largest phase ωL T of these.
+    /// In which lanes all tosses are ordinary, with a largest phase ωL T above 0 in each lane. The sum is multiplied by it.
     #[inline(always)]
     pub(super) fn are_ordinary(&self, most_turns: Real<S>) -> Mask<S> {
-        let Self { squared, inverse, turns, sign } = *self;
-        let scale = squared.constant(1.0 / LARGEST_SQUARE);
-        let extent = squared.mul_add(scale, inverse * scale) + turns / most_turns;
-        extent.abs().at_most(squared.constant(1.0).times_sign_of(sign))
+        let extent = self.of_squares().mul_add(most_turns, self.turns);
+        extent.abs().at_most(most_turns.times_sign_of(self.sign))
+    }
+
+    /// The sum of the parts of |L|² and of its inverse.
+    #[inline(always)]
+    fn of_squares(&self) -> Real<S> {
+        let scale = self.squared.constant(1.0 / LARGEST_SQUARE);
+        self.squared.mul_add(scale, self.inverse * scale)
     }
 }
 

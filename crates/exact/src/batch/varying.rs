@@ -2,7 +2,8 @@
 //! attitude of its own. The time of flight T comes with its rest, as a rate times T is a phase:
 //!
 //! ```text
-//! T = 2 v0/g,   or (v0 + √d)/g with d = v0² + 2 g h          each product, sum and quotient with what rounding has lost
+//! T = 2 v0/g,   or (v0 + √d)/g with d = v0² + 2 g h          each product, sum and quotient with what rounding has lost,
+//!                                                            a quotient as the product with the rounded inverse
 //! k = I3/I1                                                  and its rest, to u² k
 //! cos θ = (A + B cos φ + C sin φ)/|L|²,   φ = |L| T          as from any attitude, with m the vertical at launch (BF)
 //! Q = Q0 ⊗ exp(½ φ ŝ) ⊗ exp(-½ q T ẑ)                        as by the kernel of attitudes, q = (k - 1) ωz with its rest
@@ -335,9 +336,10 @@ impl<A: Answer<OUT>, const OUT: usize> Run<'_, '_, A, OUT> {
             }
             _ => [speed + speed, speed.constant(0.0)],
         };
-        let time = sum / gravity;
+        let inverse = gravity.constant(1.0) / gravity;
+        let time = sum * inverse;
         let [back, back_rest] = time.product_in_range(gravity);
-        [time, (((sum - back) - back_rest) + rest) / gravity]
+        [time, (((sum - back) - back_rest) + rest) * inverse]
     }
 }
 
@@ -346,11 +348,11 @@ impl<A: Answer<OUT>, const OUT: usize> Run<'_, '_, A, OUT> {
 fn ratio_of<S: Simd>(i1: Real<S>, i3: Real<S>) -> [Real<S>; 2] {
     let limits = [1.0 / LARGEST_MOMENT, LARGEST_MOMENT];
     let (i1, i3) = (within(i1, limits), within(i3, limits));
-    let ratio = within(i3 / i1, [0.0, 2.0]);
+    let inverse = i1.constant(1.0) / i1;
+    let ratio = i3 * inverse;
     let [back, back_rest] = ratio.product_in_range(i1);
-    // A quotient that was rounded down to 2 is of no coin.
     let is_coin = i3.at_most(i1 + i1);
-    [is_coin.choose(ratio, ratio.constant(f64::NAN)), ((i3 - back) - back_rest) / i1]
+    [is_coin.choose(ratio, ratio.constant(f64::NAN)), ((i3 - back) - back_rest) * inverse]
 }
 
 /// d if enough of v0² is left in it, else NaN.
