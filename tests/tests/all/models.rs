@@ -100,9 +100,9 @@ fn box_of_four() -> Space {
 
 /// Why a plan of the probability of `space` passes the enclosure over.
 fn enclosure_is_passed_over(space: Space, accuracy: f64) -> String {
-    let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
+    let decision = Scene::new(Want::Probability(space), accuracy).plan().expect("a plan");
     let mut passed_over = decision.passed_over.iter();
-    passed_over.find(|(candidate, _)| candidate.model.name == "share-enclosure").unwrap().1.to_string()
+    passed_over.find(|(candidate, _)| candidate.model.name == "share-enclosure").expect("a reason").1.to_string()
 }
 
 #[test]
