@@ -225,6 +225,7 @@ impl Passes {
         // If far smaller cells add up to the same width, roundings make it, and no pass helps. Nor is another begun if it would
         // take too many cells.
         let is_in_vain = self.narrowest.is_some_and(|[_, at]| self.threshold < 1e-3 * at);
+        // The same of many cells that are not far smaller.
         let is_stuck = !is_narrower && cells > FIRST_PASS / 4;
         if now <= self.goal || is_in_vain || is_stuck || self.most_cells < LAST_PASS * cells {
             return false;

@@ -69,7 +69,8 @@ impl Scene {
                 }
             }
             (None, _) => {
-                let valid = "at least what rounding leaves of a share of speeds, or 2^36 launches of a sample";
+                let valid =
+                    "at least what rounding leaves of a share of speeds or an enclosure, or 2^36 launches of a sample";
                 cheapest(Vec::new(), samples(self)?).ok_or_else(|| self.too_accurate(valid))
             }
         }

@@ -129,6 +129,9 @@ impl Backend {
 
     /// How the toss lands. The exact motion proves it; another solver decides by its own `tilt`, cos θ at landing with its
     /// error estimate.
+    ///
+    /// # Errors
+    /// As for [`certify`].
     pub fn verdict(&self, toss: &Toss, tilt: Tilt) -> Result<Verdict, SolveError> {
         match self {
             Self::Exact(_) => certify(toss).map(Verdict::Proven),

@@ -131,6 +131,9 @@ impl Landing {
     }
 
     /// The same with the margin, whose search takes up to some seconds for a body with I1 ≠ I2.
+    ///
+    /// # Errors
+    /// As for [`margin`](margin()).
     pub fn with_margin(self, toss: &Toss) -> Result<Self, SolveError> {
         Ok(Self { margin: Some(margin(toss)?), ..self })
     }

@@ -167,6 +167,9 @@ pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> 
 }
 
 /// As [`trace_points`], with proven bounds of the errors at each point.
+///
+/// # Errors
+/// As [`trace_points`]; each point has the errors of [`QuaternionSolver::enclose`].
 pub fn enclosed_points<'a>(
     solver: &'a QuaternionSolver,
     toss: &'a Toss,
