@@ -43,13 +43,11 @@ pub enum Error {
         /// What is wrong there, with the name of the field if there is one.
         message: String,
     },
-    /// The largest allowed number of launches, or of cells of an enclosure, did not reach the wanted accuracy.
-    #[error("after {number} {of} the probability is known to {reached:.1e}, not to {accuracy:e}")]
+    /// The largest allowed number of launches did not reach the wanted accuracy.
+    #[error("after {launches} launches the probability is known to {reached:.1e}, not to {accuracy:e}")]
     NotReached {
-        /// The number of launches solved, or of cells.
-        number: u64,
-        /// `"launches"` or `"cells"`.
-        of: &'static str,
+        /// The number of launches solved.
+        launches: u64,
         /// Half the width of the interval.
         reached: f64,
         /// The accuracy that was wanted.

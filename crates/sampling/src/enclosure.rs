@@ -31,8 +31,8 @@ use function::Bounds;
 use means::Problem;
 use numerics::{Ball, DoubleDouble, Elementary};
 
-/// The largest number of cells of one sum, unless another is given.
-pub const MOST_CELLS: u64 = 1 << 24;
+/// The largest number of cells of one sum.
+pub(crate) const MOST_CELLS: u64 = 1 << 24;
 
 /// So many cells are reported together.
 const REPORTED: u64 = 256;
@@ -127,6 +127,15 @@ pub fn usual_accuracy(space: &Space) -> f64 {
         0 | 1 => 1e-10,
         2 => 1e-6,
         _ => 1e-3,
+    }
+}
+
+/// Why an enclosure of so many cells, of 2^24 that are allowed, is not narrower, in words.
+pub fn ended_in_words(cells: u64) -> String {
+    if cells > MOST_CELLS / LAST_PASS {
+        format!("more than {cells} cells are too many")
+    } else {
+        "smaller cells do not make it narrower".to_owned()
     }
 }
 

@@ -83,10 +83,10 @@ impl<'a> Sampler<'a> {
         Sampler { stop, ..self }
     }
 
-    /// Sets the largest number of cells of an enclosure, which is 2^24 if it is not set.
+    /// Lets an enclosure take at most so many cells, where 2^24 are the most of all.
     #[must_use]
     pub fn within(self, most_cells: u64) -> Self {
-        Self { most_cells, ..self }
+        Self { most_cells: self.most_cells.min(most_cells), ..self }
     }
 
     /// The same sampler without progress reports.

@@ -17,7 +17,7 @@ use crate::model::{Kind, MODELS, Model, Of};
 use crate::proofs::{plan as proof, run as proven};
 use crate::reason::Reason;
 use crate::registry::Registry;
-use crate::samples::{is_out_of_reach, run, samples};
+use crate::samples::{is_missed, run, samples};
 use crate::scene::{Integrator, Scene, Want};
 use crate::trace::require_points;
 
@@ -116,11 +116,13 @@ impl Scene {
     }
 
     /// Answers the scene by the model that [`Scene::plan_with`] chooses, and returns that choice with the answer. A model
-    /// that turns out not to reach the accuracy for a space, by its rule or because of rounding, gives way to the next.
+    /// that turns out not to reach the accuracy for a space, by its rule or because of rounding, gives way to the next. Where
+    /// there is no next one, an enclosure is the answer as far as it was proven; [`sampling::Estimate::is_wider_than_asked`]
+    /// tells.
     /// `progress` is called as by [`sampling::Sampler::on_progress`] while launches are sampled.
     ///
     /// # Errors
-    /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if no model reaches the accuracy.
+    /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if samples do not reach the accuracy.
     pub fn choose_and_run(&self, registry: &Registry, progress: Progress<'_>) -> Result<(Choice, Answer), Error> {
         self.choose_and_run_by(registry, &Sampler::exact().on_progress(progress))
     }
@@ -132,17 +134,26 @@ impl Scene {
     /// As [`Scene::choose_and_run`]; [`Error::Ended`] if there is none yet.
     pub fn choose_and_run_by(&self, registry: &Registry, sampler: &Sampler<'_>) -> Result<(Choice, Answer), Error> {
         let mut choice = self.plan_with(registry)?.choice;
-        let mut failed = Vec::new();
+        let (mut failed, mut narrowest) = (Vec::new(), None);
         loop {
-            match choice.run_by(self, sampler) {
-                Err(error) if is_out_of_reach(&error) => {
-                    failed.push(choice.model);
-                    let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
-                    choice = cheapest(Vec::new(), others).ok_or(error)?.choice;
+            failed.push(choice.model);
+            let next = self.next(&failed)?;
+            let found = choice.run_by(self, sampler, next.as_ref());
+            match next.filter(|_| is_missed(&found) && !sampler.is_over()) {
+                Some(next) => {
+                    narrowest = found.ok().map(|answer| (choice, answer)).or(narrowest);
+                    choice = next;
                 }
-                found => return found.map(|answer| (choice, answer)),
+                None => return found.map(|answer| (choice, answer)).or_else(|error| narrowest.ok_or(error)),
             }
         }
+    }
+
+    /// What is chosen for a space if the models that `failed` are left out.
+    fn next(&self, failed: &[&Model]) -> Result<Option<Choice>, Error> {
+        let Want::Probability(_) = self.want else { return Ok(None) };
+        let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
+        Ok(cheapest(Vec::new(), others).map(|decision| decision.choice))
     }
 
     /// Checks the accuracy and the number of points. A toss and a space need no check: their types hold valid values
@@ -196,10 +207,10 @@ impl Choice {
     /// # Errors
     /// The error of the solver; [`Error::Input`] for a scene that wants something else than the one planned.
     pub fn run(&self, scene: &Scene) -> Result<Answer, Error> {
-        self.run_by(scene, &Sampler::exact())
+        self.run_by(scene, &Sampler::exact(), None)
     }
 
-    fn run_by(&self, scene: &Scene, sampler: &Sampler<'_>) -> Result<Answer, Error> {
+    fn run_by(&self, scene: &Scene, sampler: &Sampler<'_>, next: Option<&Self>) -> Result<Answer, Error> {
         let expected = "one that was made for this scene";
         let other = || InputError::Malformed { field: "choice", value: self.model.name.to_owned(), expected };
         match (&self.how, &self.model.kind, &scene.want) {
@@ -209,7 +220,7 @@ impl Choice {
             (How::Proof(stepping), _, want) => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
-                Ok(Answer::Probability(Box::new(run(sampler, space, *plan, scene.accuracy)?)))
+                Ok(Answer::Probability(Box::new(run(sampler, space, *plan, (scene.accuracy, next))?)))
             }
             _ => Err(other().into()),
         }

@@ -1,13 +1,14 @@
 //! Plans and runs the models that give the probability of a space of launches. The number N of launches of a sample follows
 //! from the error e N^-p that the table of [models](crate::model) states: it is N = (e/accuracy)^(1/p). This error was measured
 //! on other spaces, so an estimate whose interval turns out wider than the accuracy is repeated with twice as many launches. An
-//! enclosure that takes many more cells than the table states gives way to the next model.
+//! enclosure that takes as long as the next model is expected to take gives way to it.
 
 use dynamics::{Error, InputError};
-use sampling::enclosure::{MOST_CELLS, coordinates, largest_phase, require_accuracy, require_enclosable};
+use sampling::enclosure::{coordinates, largest_phase, require_accuracy, require_enclosable};
 use sampling::plan::SCRAMBLES;
-use sampling::{Estimate, Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Estimate, Found, Plan, Rest, Sampler, Scrambled, Space};
 
+use crate::answer::Answer;
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::model::{CELLS, Cells, Fit, Kind, MODELS, Model, Of, USUAL_PHASE};
 use crate::reason::Reason;
@@ -15,9 +16,6 @@ use crate::scene::{Scene, Want};
 
 /// The seed of all planned samples. Any other number would serve as well.
 const SEED: u64 = 1;
-
-/// How many times the expected cells an enclosure may take before another model is tried: nearly all random spaces took fewer.
-const SPARE: f64 = 16.0;
 
 /// The largest number of launches that is planned.
 const MOST_LAUNCHES: u64 = 1 << 36;
@@ -120,14 +118,22 @@ fn points_for([error, power]: [f64; 2], plan: fn(u64, u64) -> Plan, accuracy: f6
     Ok(if is_independent { needed } else { needed.next_power_of_two().max(SCRAMBLES * 2) })
 }
 
-/// Runs a plan that was [offered](samples). An enclosure may take [`SPARE`] times the cells that were expected.
-pub(crate) fn run(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
-    if !matches!(plan, Plan::Enclosure { .. }) {
-        return sampled(sampler, space, plan, accuracy);
+/// Runs a plan that was [offered](samples). An enclosure may take the time that the `next` model is expected to take.
+pub(crate) fn run(
+    sampler: &Sampler<'_>,
+    space: &Space,
+    plan: Plan,
+    (accuracy, next): (f64, Option<&Choice>),
+) -> Result<Estimate, Error> {
+    match (plan, next) {
+        (Plan::Enclosure { .. }, Some(next)) => {
+            let [_, cell_ns] = cells(space, accuracy);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
+            let most_cells = (next.expected_cost_ns / cell_ns) as u64;
+            Ok(sampler.clone().within(most_cells.max(1)).estimate(space, plan)?)
+        }
+        _ => sampled(sampler, space, plan, accuracy),
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
-    let most_cells = (SPARE * cells(space, accuracy)[0]) as u64;
-    sampled(&sampler.clone().within(most_cells.min(MOST_CELLS)), space, plan, accuracy)
 }
 
 /// Runs `plan` by `sampler`, with twice the launches again and again as long as the half-width of the interval exceeds the
@@ -135,12 +141,10 @@ pub(crate) fn run(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f6
 fn sampled(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
     let found = sampler.estimate(space, plan)?;
     let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
-    match (found.half_width(), refined(plan, accuracy)) {
+    match (found.half_width(), refined(plan)) {
         (Some(reached), Some(more)) if reached > accuracy && !sampler.is_over() => {
-            let is_enclosed = found.interval_kind == IntervalKind::Proven;
-            if is_enclosed || found.points >= MOST_LAUNCHES || rounding_error > accuracy {
-                let of = if is_enclosed { "cells" } else { "launches" };
-                return Err(Error::NotReached { number: found.points, of, reached, accuracy });
+            if found.points >= MOST_LAUNCHES || rounding_error > accuracy {
+                return Err(Error::NotReached { launches: found.points, reached, accuracy });
             }
             match sampled(sampler, space, more, accuracy) {
                 Err(Error::Ended) => Ok(found),
@@ -151,40 +155,22 @@ fn sampled(sampler: &Sampler<'_>, space: &Space, plan: Plan, accuracy: f64) -> R
     }
 }
 
-/// The plan with twice the launches, or with this accuracy for enclosure; `None` for a plan that cannot be refined.
-fn refined(plan: Plan, accuracy: f64) -> Option<Plan> {
+/// The plan with twice the launches; `None` for a plan that cannot be refined.
+fn refined(plan: Plan) -> Option<Plan> {
     let twice = |scrambled: Scrambled| Scrambled { points: 2 * scrambled.points, ..scrambled };
     match plan {
         Plan::Random { points, seed } => Some(Plan::Random { points: 2 * points, seed }),
         Plan::Sobol(scrambled) => Some(Plan::Sobol(twice(scrambled))),
         Plan::ExactSpeed(Rest::Sobol(scrambled)) => Some(Plan::ExactSpeed(Rest::Sobol(twice(scrambled)))),
-        Plan::Enclosure { .. } => Some(Plan::Enclosure { accuracy }),
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+        Plan::Enclosure { .. } | Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
     }
 }
 
-/// Whether `error` is that of a model that does not reach its accuracy for a space, however many launches it takes.
-pub(crate) fn is_out_of_reach(error: &Error) -> bool {
-    matches!(error, Error::NotReached { number, .. } if *number < MOST_LAUNCHES)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A wide interval is proven, too, but a plan promises its accuracy.
-    #[test]
-    fn an_enclosure_of_too_many_cells_gives_way_to_another_model() {
-        let space = sampling::named_space("paper-fig4").expect("a named space");
-        let (few, accuracy) = (Sampler::exact().within(40), 1e-8);
-        let plan = Plan::Enclosure { accuracy };
-        let wide = few.estimate(&space, plan).expect("an interval");
-        assert!(wide.half_width().is_some_and(|reached| reached > accuracy));
-        let error = sampled(&few, &space, plan, accuracy).expect_err("too few cells");
-        assert!(is_out_of_reach(&error) && matches!(error, Error::NotReached { of: "cells", .. }), "{error:?}");
-        assert!(run(&few, &space, plan, accuracy).is_ok_and(|found| !found.is_wider_than_asked()));
-        // Somebody who ends the search has what was found.
-        let ended = few.until(&|| true);
-        assert!(sampled(&ended, &space, plan, accuracy).is_ok_and(|found| found.is_wider_than_asked()));
+/// Whether a model turned out not to reach the accuracy of a space.
+pub(crate) fn is_missed(found: &Result<Answer, Error>) -> bool {
+    match found {
+        Ok(Answer::Probability(found)) => found.is_wider_than_asked(),
+        Err(Error::NotReached { launches, .. }) => *launches < MOST_LAUNCHES,
+        _ => false,
     }
 }

@@ -1,9 +1,11 @@
 //! Checks which model the planner chooses. Whether its answers are as accurate as it says is for the checks of the suite
 //! whose names begin with `plan-`.
 
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
 use blackbox::{config, tosses};
 use proptest::prelude::*;
-use sampling::{Axis, Space};
+use sampling::{Axis, Sampler, Space};
 use toss::planner::{How, MODELS, Model};
 use toss::{Answer, Body, Choice, Coin, Error, Registry, Scene, Settings, Solver, Stage, Toss, Want};
 
@@ -183,4 +185,35 @@ fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
     let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };
     assert_eq!(solution.model.name, "sobol");
     assert!(found.half_width().is_some_and(|reached| reached <= 1e-3), "{found:?}");
+}
+
+#[test]
+fn an_enclosure_gives_way_and_is_the_answer_where_nothing_else_serves() {
+    let figure = || Scene::new(Want::Probability(sampling::named_space("paper-fig4").unwrap()), 1e-7);
+    let answer = |scene: &Scene, sampler: &Sampler<'_>| {
+        let (choice, answer) = scene.choose_and_run_by(Registry::standard(), sampler).unwrap();
+        let Answer::Probability(found) = answer else { panic!("a probability was asked for") };
+        (choice.model.name, found)
+    };
+    assert_eq!(figure().plan().unwrap().choice.model.name, "share-enclosure");
+    // A space that takes many more cells than most gives way after the time that sampling is expected to take.
+    let dear = Space::builder(Coin::PAPER).rate_x(28.0..=50.0).rate_y(6.0..=39.0).rate_z(24.0).tilt(0.8).speed(2.6);
+    let dear = Scene::new(Want::Probability(dear.build().unwrap()), 1.7e-3);
+    assert_eq!(dear.plan().unwrap().choice.model.name, "share-enclosure");
+    assert_eq!(answer(&dear, &Sampler::exact()).0, "sobol");
+    // By too few cells, an enclosure is too wide.
+    let few = Sampler::exact().within(40);
+    let (model, sampled) = answer(&figure(), &few);
+    assert_eq!((model, sampled.is_wider_than_asked()), ("share-sobol", false));
+    // Somebody who ends the sampling has the enclosure.
+    let done = AtomicU64::new(0);
+    let (count, is_late) = (|more| _ = done.fetch_add(more, Relaxed), || done.load(Relaxed) > 1000);
+    let (model, proven) = answer(&figure(), &few.clone().on_progress(&count).until(&is_late));
+    assert_eq!((model, proven.is_wider_than_asked()), ("share-enclosure", true));
+    assert!(proven.interval.unwrap().contains(sampled.probability) && proven.half_width() > Some(1e-7));
+    // No sample reaches this accuracy: an enclosure takes what cells it needs, and if it misses, too, it is the answer.
+    let finest = Scene { accuracy: 1e-13, ..figure() };
+    let (model, found) = answer(&finest, &Sampler::exact());
+    assert!(model == "share-enclosure" && found.half_width().unwrap() <= 1e-13, "{found:?}");
+    assert_eq!(answer(&finest, &few).1.interval, proven.interval);
 }

@@ -1,6 +1,7 @@
 //! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
 //! interval of the estimate with it, as far as the method has one.
 
+use sampling::enclosure::ended_in_words;
 use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
 use toss::defaults::{self, ACCURACY, ACCURACY_OF_BODIES, LAUNCHES};
 use toss::solvers::Proving;
@@ -143,7 +144,7 @@ impl Args {
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
         let is_enclosed = scene.plan()?.choice.method() == Some(Method::Enclosure.name());
-        watch.show(None, if is_enclosed { "cells" } else { "launches" });
+        watch.show(None, if is_enclosed { "cells or launches" } else { "launches" });
         let run = |sampler: &Sampler<'_>| scene.choose_and_run_by(Registry::standard(), sampler);
         let (_, answer) = self.threads.run(|| watch.ask(backend.sampler(), run))??;
         if let Answer::Probability(found) = answer { Ok(*found) } else { Err(no_sample()) }
@@ -158,10 +159,9 @@ impl Args {
 fn not_reached(found: &Estimate, watch: &Watch) -> String {
     match (found.plan, found.half_width()) {
         (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked() => {
-            let cells = found.points;
             let why = match watch.ended() {
                 Some(ended) => ended.in_words().to_owned(),
-                None => format!("more cells than {cells} are too many, or roundings forbid it"),
+                None => ended_in_words(found.points),
             };
             let reached = quantity::rounded_up(reached);
             format!("\naccuracy     {reached}, and not the {accuracy:e} that was asked for: {why}")
