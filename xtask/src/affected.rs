@@ -59,8 +59,8 @@ const PARTS: [Part; 11] = [
         ],
     ),
     part("fuzz", &["unfair-toss-fuzz"], &[]),
-    // What a package is made of beside its sources. Of these, `lints` finds what an older Rust does not have and what one
-    // set of features lacks, and `tests` builds `toss` and `verify` outside the workspace.
+    // What a package is made of beside its sources, and the pages with crates of a reader. In the sources, `lints` finds what
+    // an older Rust does not have and what one set of features lacks.
     part(
         "packages",
         &[],
@@ -79,6 +79,7 @@ const PARTS: [Part; 11] = [
             "crates/toss/Cargo.toml",
             "crates/verify/Cargo.toml",
             "crates/whole-file/Cargo.toml",
+            "docs/your-solver.md",
         ],
     ),
     part(

@@ -14,10 +14,10 @@ const PROMPT: &str = "$ unfair-toss ";
 const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("README.md", "text", 1, "", "a report, which has the date and the times of its run"),
     ("README.md", "sh", 1, "", "it would judge a program of the reader's own"),
-    ("README.md", "toml", 1, "xtask/tests/downstream.rs", "the manifest of that crate depends on toss by this line"),
+    ("README.md", "toml", 1, ".ci/packages", "a crate outside the workspace depends on toss by this line"),
     ("README.md", "sh", 1, ".ci/python", "builds, installs and tests the package for Python"),
     ("README.md", "sh", 1, "", "it would install the program"),
-    ("README.md", "rust", 1, "xtask/tests/downstream.rs", "runs it in a crate outside the workspace"),
+    ("README.md", "rust", 1, "crates/toss/tests/examples.rs", "runs it"),
     ("README.md", "python", 1, "bindings/python/tests/test_package.py", "runs it"),
     ("docs/ci.md", "sh", 1, "crates/verify/tests/all/pages.rs", "runs them in their order"),
     ("docs/ci.md", "sh", 1, "crates/verify/tests/all/pages.rs", "runs the template, without building the checks"),

@@ -36,5 +36,14 @@ fn every_example_prints_the_output_in_its_documentation() {
         names.push(name);
     }
     names.sort();
-    assert_eq!(names, ["engraved", "human", "inverse", "map", "racket"]);
+    assert_eq!(names, ["engraved", "human", "inverse", "map", "racket", "two_solvers"]);
+}
+
+#[test]
+fn readme_shows_an_example_with_its_output() {
+    let read = |path: &str| std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
+    let example = read("examples/two_solvers.rs");
+    let (_, program) = example.split_once("\n\n").expect("a program below the header");
+    assert!(read("../../README.md").contains(&format!("```rust\n{program}```\n")), "{program}");
+    assert!(program.contains(&format!("// {}", documented(&example))), "{program}");
 }
