@@ -51,7 +51,7 @@ pub(crate) struct Answers {
 
 /// Tries adversarial launches with every solver of the registry, each integrator by every scheme.
 pub(super) fn search(context: &Context) -> anyhow::Result<Vec<Answers>> {
-    let launches = context.effort.of([2000, 10_000, 200_000]);
+    let launches = context.effort.of([400, 10_000, 200_000]);
     search_among(context, &(0..launches).map(|index| launch(SEED, index)).collect::<Vec<_>>())
 }
 
