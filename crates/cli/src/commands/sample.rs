@@ -274,7 +274,7 @@ impl<'a> Writer<'a> {
 
     /// Lets the reader of standard output have all that was written.
     fn finish(&mut self) -> Result<(), Failure> {
-        whole_file::unless_closed(self.out.flush()).map_err(Failure::Print)
+        whole_file::unless_closed(self.out.flush()).map_err(Failure::print)
     }
 
     fn csv(&self, rows: &[Row]) -> Vec<u8> {
@@ -288,7 +288,7 @@ impl<'a> Writer<'a> {
     fn print(&mut self, text: &[u8]) -> Result<(), Failure> {
         match self.out.write_all(text) {
             Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => self.is_closed = true,
-            written => written.map_err(Failure::Print)?,
+            written => written.map_err(Failure::print)?,
         }
         Ok(())
     }

@@ -77,7 +77,7 @@ impl Args {
         }
         asked.watch.show_beside_rows(self.points.map(|points| points as u64), "points");
         let rows = Rows { format: self.series.format(), solver: solver.name(), asked };
-        let closed_or = |printed: std::io::Result<()>| whole_file::unless_closed(printed).map_err(Failure::Print);
+        let closed_or = |printed: std::io::Result<()>| whole_file::unless_closed(printed).map_err(Failure::print);
         let mut failed = None;
         closed_or(rows.print(points, streams.out, &mut failed))?;
         failed.map_or_else(|| Ok(String::new()), Err)
@@ -138,7 +138,7 @@ impl Rows<'_> {
                 // Where the points end, the object says why.
                 if let Some(failure) = failed.take() {
                     write!(out, ",\"error\":{}", plain_json(&failure.json()))?;
-                    *failed = Some(Failure::Said(Box::new(failure)));
+                    *failed = Some(failure.said());
                 } else if let Some(ended) = watch.ended() {
                     write!(out, ",\"ended\":\"{}\"", ended.name())?;
                 }
