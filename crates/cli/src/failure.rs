@@ -68,7 +68,7 @@ impl From<Ended> for Failure {
 impl Failure {
     /// Bad usage or input.
     fn new(kind: &'static str, message: impl Display, details: Value) -> Self {
-        let message = printable(&message.to_string()).into_owned();
+        let message = printable(&message.to_string());
         Self { kind, message, details, exit_code: 2, of_arguments: None, is_said: false }
     }
 

@@ -180,7 +180,7 @@ fn program_with(registry: &Registry) -> clap::Command {
 /// character that does something to a terminal; `raw` is what is wrong if they are understood then.
 fn refusal(registry: &Registry, arguments: &[OsString], raw: clap::Error) -> clap::Error {
     let printed = |argument: &OsString| {
-        argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into_owned().into())
+        argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into())
     };
     program_with(registry).try_get_matches_from(arguments.iter().map(printed)).err().unwrap_or(raw)
 }

@@ -108,7 +108,7 @@ impl ChartArgs {
         // XML has no control characters, and the title may have the name of a file.
         let chart = whole_file::printable_lines(&chart);
         if whole_file::leads_to(path) {
-            return Ok(Some(chart.into_owned()));
+            return Ok(Some(chart));
         }
         write("svg", path, &chart)?;
         Ok(None)
@@ -301,7 +301,7 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
 
 /// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
-    let printable = |row: &Vec<String>| row.iter().map(|cell| whole_file::printable(cell).into_owned()).collect();
+    let printable = |row: &Vec<String>| row.iter().map(|cell| whole_file::printable(cell)).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(printable).collect();
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
