@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use toss::defaults::TRACE_POINTS;
 use toss::quantity::Dimension;
-use toss::trace::{EnclosedPoint, MOST_POINTS, Times, enclosed_points, trace_points};
+use toss::trace::{EnclosedPoint, MOST_POINTS, Times, trace_enclosed, trace_points};
 use toss::{Error, QuaternionSolver, Registry, Solver, Toss, TracePoint, trace};
 
 use crate::Streams;
@@ -103,7 +103,7 @@ impl Args {
             error_bound: Some(certificate.error_bound()),
             attitude_error_bound: Some(certificate.attitude_error_bound()),
         };
-        Ok(Box::new(enclosed_points(prover, toss, times)?.map(move |point| point.map(bounded))))
+        Ok(Box::new(trace_enclosed(prover, toss, times)?.map(move |point| point.map(bounded))))
     }
 }
 
