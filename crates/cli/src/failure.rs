@@ -73,9 +73,9 @@ impl Failure {
     }
 
     /// Arguments that are not understood.
-    pub(crate) fn arguments(error: clap::Error) -> Self {
+    pub(crate) fn arguments(error: &clap::Error) -> Self {
         let of_arguments = Some(error.render().ansi().to_string());
-        Self { of_arguments, ..Self::new("input", words(&error), argument_details(&error)) }
+        Self { of_arguments, ..Self::new("input", words(error), argument_details(error)) }
     }
 
     /// An input of the option that `source` may not call by its name.
@@ -141,6 +141,7 @@ impl Failure {
     }
 
     /// Standard output that can't be written.
+    #[expect(clippy::needless_pass_by_value, reason = "map_err passes it so")]
     pub(crate) fn print(error: std::io::Error) -> Self {
         Self { exit_code: 1, ..Self::new("write", format!("cannot write standard output: {error}"), json!({})) }
     }

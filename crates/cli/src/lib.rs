@@ -148,7 +148,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Stream
         Ok(given) => answer(registry, &given, &mut streams).and_then(|text| output::print(&text, streams.out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
         Err(raw) if is_of_wobble(&raw) => Err(NO_WOBBLE.into()),
-        Err(raw) => Err(Failure::arguments(refusal(registry, arguments, raw))),
+        Err(raw) => Err(Failure::arguments(&refusal(registry, arguments, raw))),
     };
     let Err(failure) = printed else { return 0 };
     failure.report(streams.err);
@@ -192,7 +192,7 @@ fn is_of_wobble(error: &clap::Error) -> bool {
 
 /// The answer of the command that the arguments ask for.
 fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) -> Result<String, Failure> {
-    let command = Cli::from_arg_matches(given).map_err(Failure::arguments)?.command;
+    let command = Cli::from_arg_matches(given).map_err(|error| Failure::arguments(&error))?.command;
     let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Map::new, |(described, given)| output::input(described, given));
