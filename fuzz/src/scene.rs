@@ -45,7 +45,7 @@ pub fn check(data: &[u8]) {
 
 fn check_answer(scene: &Scene) {
     let answer = match scene.solve() {
-        Ok(solution) => solution.answer,
+        Ok(answer) => answer,
         Err(error) => return crate::assert_said(&error),
     };
     assert!(numbers(&answer).into_iter().all(f64::is_finite), "an answer that is not finite: {answer:?}");
@@ -77,7 +77,7 @@ fn of_point(&TracePoint { time, attitude, angles, normal, face, cos_tilt }: &Tra
 
 /// The proven outcome is the sign of cos θ, and an error of one is an error of the other.
 fn check_outcome(toss: &Toss) {
-    let solve = |want| Scene::new(want, 1e-15).solve().map(|solution| solution.answer);
+    let solve = |want| Scene::new(want, 1e-15).solve();
     let outcome = solve(Want::Outcome(*toss));
     let Ok(Tilt { cos_tilt, .. }) = ExactSolver.tilt(toss) else {
         assert!(outcome.is_err(), "{toss:?} has an outcome and no cos θ");

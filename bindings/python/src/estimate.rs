@@ -3,7 +3,7 @@
 use ::toss::defaults;
 use ::toss::sampling::{self, Counts, Found, IntervalKind, Sampler, Space};
 use ::toss::solvers::{IntegratedCounts, Proving};
-use ::toss::{Answer, Backend, InputError, Registry, Scene, Stage, Want};
+use ::toss::{Answer, Backend, InputError, Scene, Stage, Want};
 use exact::STAGES;
 use pyo3::prelude::*;
 
@@ -120,10 +120,10 @@ pub(crate) fn estimate_by_accuracy(
     let (scene, pool) = (Scene::new(Want::Probability(space), accuracy), threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();
-        Ok(pool.install(|| scene.choose_and_run(Registry::standard(), &progress))?)
+        Ok(pool.install(|| scene.solve_with(&Sampler::exact().on_progress(&progress)))?)
     });
     match found? {
-        (_, Answer::Probability(found)) => Ok((&*found).into()),
+        Answer::Probability(found) => Ok((&*found).into()),
         _ => {
             let why = "the plan for this space is no sample";
             Err(Failure::from(InputError::OutsideModel { field: "accuracy", why }).into())

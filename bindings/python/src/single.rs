@@ -6,7 +6,7 @@ use ::toss::defaults::TRACE_POINTS;
 use ::toss::quantity::Rounding;
 use ::toss::report;
 use ::toss::sampling::{Cone, Interval, Power, SameSide, SameSideBias, Spread, long_flight_cone, rate_ratio};
-use ::toss::trace::{EnclosedPoint, Times, enclosed_points, trace_every};
+use ::toss::trace::{EnclosedPoint, Times, trace_enclosed};
 use ::toss::{
     Backend, Error, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
     TimeOfFlight, Toss, Work, margin, speeds_of_heads,
@@ -311,9 +311,9 @@ pub(crate) fn trace<'py>(
         return Err(refused(py, "trace takes points or dt, and not both", "points", None, "either points or dt"));
     }
     let (points, dt) = (points.map(points_of).transpose()?, optional_number("dt", dt)?);
+    let times = dt.map_or(Times::Number(points.unwrap_or(TRACE_POINTS)), Times::Every);
     if prove {
         let prover = prover_of(solver)?;
-        let times = dt.map_or(Times::Number(points.unwrap_or(TRACE_POINTS)), Times::Every);
         let rows = threads::aside(py, move |stop| {
             let bounded = |point: Result<EnclosedPoint, Error>| -> Result<Vec<f64>, Failure> {
                 stop.here();
@@ -321,17 +321,14 @@ pub(crate) fn trace<'py>(
                 let bounds = [certificate.error_bound(), certificate.attitude_error_bound()];
                 Ok(point.numbers().into_iter().chain(bounds).collect())
             };
-            enclosed_points(&prover, &toss, times)?.map(bounded).collect::<Result<Vec<_>, _>>()
+            trace_enclosed(&prover, &toss, times)?.map(bounded).collect::<Result<Vec<_>, _>>()
         })?;
         return Ok(PyArray2::from_vec2(py, &rows)?);
     }
     let backend = backend_of(solver)?;
     let flight = threads::aside(py, move |stop| {
         let solver = Stopping { solver: backend.solver(), stop };
-        match (points, dt) {
-            (_, Some(dt)) => Ok(trace_every(&solver, &toss, dt)?),
-            (points, None) => Ok(::toss::trace(&solver, &toss, points.unwrap_or(TRACE_POINTS))?),
-        }
+        Ok(::toss::trace(&solver, &toss, times)?)
     })?;
     let rows: Vec<Vec<f64>> = flight.iter().map(|point| point.numbers().into()).collect();
     Ok(PyArray2::from_vec2(py, &rows)?)

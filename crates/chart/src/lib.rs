@@ -3,14 +3,12 @@
 
 mod frame;
 mod labels;
-mod log_log;
-mod running;
+mod lines;
 mod ticks;
 
 pub use frame::{Axis, Frame, centred, frame, pixel};
 pub use labels::{EndLabel, end_labels};
-pub use log_log::{LINE_WIDTH, Marker, Series, log_log};
-pub use running::running;
+pub use lines::{Marker, Series, lines};
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

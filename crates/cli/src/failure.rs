@@ -1,7 +1,9 @@
-//! The reasons for which a command gives no answer, with their exit codes and their JSON. All of them go through one
-//! type, so that every command reports a failure in the same way.
+//! The reasons for which a command gives no answer, with their exit codes and their JSON. All of them are of one type, so that
+//! every command reports a failure in the same way.
 
+use std::fmt::Display;
 use std::io::Write;
+use std::path::Path;
 
 use chart::ChartError;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -13,98 +15,28 @@ use crate::json::{SCHEMA, plain_json};
 use crate::watch::Ended;
 
 /// The reason why a command gives no answer.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum Failure {
-    /// Invalid input, or a solver that failed.
-    #[error("{}", counted_from_1(.0))]
-    Unanswered(#[from] Error),
-    /// Arguments that are not understood.
-    #[error("{}", words(.0))]
-    Arguments(clap::Error),
-    /// An option that is missing, invalid or in conflict with another.
-    #[error("{message}")]
-    Usage {
-        /// The option at fault.
-        field: &'static str,
-        /// What is wrong with it.
-        message: String,
-    },
-    /// The value of an option from which a part follows that is invalid.
-    #[error("--{option}: {source}")]
-    Value {
-        /// The option.
-        option: &'static str,
-        /// What is wrong with the part.
-        source: Error,
-    },
-    /// A file that can't be read.
-    #[error("{}: cannot read {path}: {source}{}", shown(.option), folder(.source))]
-    Read {
-        /// The option that names it.
-        option: &'static str,
-        /// The file.
-        path: String,
-        /// The error of the operating system.
-        source: std::io::Error,
-    },
-    /// A file whose text is not a valid description.
-    #[error("{path}, {source}")]
-    Text {
-        /// The file.
-        path: String,
-        /// The error, with its line and column.
-        source: Error,
-    },
-    /// A row of a file of which a value is invalid.
-    #[error("{path}, line {line}, column {column}: {source}")]
-    Row {
-        /// The file.
-        path: String,
-        /// The line, from 1.
-        line: u64,
-        /// The cell in it, from 1.
-        column: usize,
-        /// What is wrong with it.
-        source: InputError,
-    },
-    /// A file of a part that does not fit.
-    #[error("{path}: {message}")]
-    Part {
-        /// The file.
-        path: String,
-        /// What is wrong with it.
-        message: String,
-    },
-    /// Threads that the system does not start.
-    #[error("cannot start {number} threads: {source}; try --threads 1")]
-    Threads {
-        /// How many.
-        number: usize,
-        /// Why not.
-        source: rayon::ThreadPoolBuildError,
-    },
-    /// Work that ended before there was an answer.
-    #[error("{} before there was an answer", .0.in_words())]
-    Ended(Ended),
-    /// A failure that the answer, which was begun, says already.
-    #[error("{0}")]
-    Said(Box<Failure>),
-    /// Standard output that can't be written.
-    #[error("cannot write standard output: {0}")]
-    Print(std::io::Error),
-    /// A file that can't be written.
-    #[error("{}: cannot write {target}: {source}{}", shown(.option), folder(.source))]
-    Write {
-        /// The option that names it.
-        option: &'static str,
-        /// The file.
-        target: String,
-        /// The error of the operating system.
-        source: std::io::Error,
-    },
-    /// A chart that can't be drawn.
-    #[error("cannot draw the chart: {0}")]
-    Chart(#[from] ChartError),
+#[derive(Debug)]
+pub(crate) struct Failure {
+    /// Its name in JSON, such as `input`.
+    kind: &'static str,
+    /// What is wrong, in one line: names and values that somebody gave stand as in a string of Rust.
+    message: String,
+    /// Further fields of its JSON, such as `field` or `time`.
+    details: Value,
+    /// The exit code: 1 if the solver failed, the answer can't be printed or threads can't start, 2 for bad usage or input.
+    pub(crate) exit_code: u8,
+    /// The message as clap prints it, with colours and the usage.
+    of_arguments: Option<String>,
+    /// Whether the answer, which was begun, says it already.
+    pub(crate) is_said: bool,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let exit_code = if error.is_input() { 2 } else { 1 };
+        // People count launches from 1, and the library by an index from 0.
+        Self { exit_code, ..Self::new(error.kind(), error.clone().after(1), details(&error)) }
+    }
 }
 
 impl From<InputError> for Failure {
@@ -119,66 +51,118 @@ impl From<SolveError> for Failure {
     }
 }
 
+impl From<ChartError> for Failure {
+    fn from(error: ChartError) -> Self {
+        Self::new("chart", format!("cannot draw the chart: {error}"), json!({}))
+    }
+}
+
+impl From<Ended> for Failure {
+    /// Work that ended before there was an answer.
+    fn from(ended: Ended) -> Self {
+        let message = format!("{} before there was an answer", ended.in_words());
+        Self { exit_code: ended.exit_code(), ..Self::new("ended", message, json!({"ended": ended.name()})) }
+    }
+}
+
 impl Failure {
+    /// Bad usage or input.
+    fn new(kind: &'static str, message: impl Display, details: Value) -> Self {
+        let message = printable(&message.to_string());
+        Self { kind, message, details, exit_code: 2, of_arguments: None, is_said: false }
+    }
+
+    /// Arguments that are not understood.
+    pub(crate) fn arguments(error: &clap::Error) -> Self {
+        let of_arguments = Some(error.render().ansi().to_string());
+        Self { of_arguments, ..Self::new("input", words(error), argument_details(error)) }
+    }
+
     /// An input of the option that `source` may not call by its name.
     pub(crate) fn value(option: &'static str, source: InputError) -> Self {
-        if source.field() == option { source.into() } else { Self::Value { option, source: source.into() } }
+        if source.field() == option {
+            return source.into();
+        }
+        let error = Error::from(source);
+        Self::new(error.kind(), format!("--{option}: {error}"), details(&error))
     }
 
     /// The option `field` can't be used, as `message` says.
-    pub(crate) fn usage(field: &'static str, message: impl Into<String>) -> Self {
-        Self::Usage { field, message: message.into() }
+    pub(crate) fn usage(field: &'static str, message: impl Display) -> Self {
+        Self::new("input", message, json!({"field": field}))
     }
 
     /// The part in the file at `path` can't be used, as `message` says.
-    pub(crate) fn part(path: &str, message: String) -> Self {
-        Self::Part { path: path.to_owned(), message }
+    pub(crate) fn part(path: &str, message: impl Display) -> Self {
+        Self::new("input", format!("{path}: {message}"), json!({"path": path}))
+    }
+
+    /// The file at `path`, whose text is not a valid description.
+    pub(crate) fn text(path: &str, source: &Error) -> Self {
+        Self::new(source.kind(), format!("{path}, {source}"), with(details(source), "path", json!(path)))
     }
 
     /// The place in the table at `path` that is at fault.
     pub(crate) fn table(path: &str, TableError { line, column, message }: TableError) -> Self {
-        let line = usize::try_from(line).unwrap_or(usize::MAX);
-        Self::Text { path: path.to_owned(), source: Error::Text { line, column, message } }
+        Self::text(path, &Error::Text { line: usize::try_from(line).unwrap_or(usize::MAX), column, message })
     }
 
-    /// What is wrong, in one line: names and values that somebody gave stand as in a string of Rust.
-    fn message(&self) -> String {
-        printable(&self.to_string()).into_owned()
+    /// A row of the table at `path` of which a value is invalid; the line and the cell in it are counted from 1.
+    pub(crate) fn row(path: &str, [line, column]: [u64; 2], source: &InputError) -> Self {
+        let place = [("path", json!(path)), ("line", json!(line)), ("column", json!(column))];
+        let details = place.into_iter().fold(input_details(source), |details, (key, value)| with(details, key, value));
+        Self::new("input", format!("{path}, line {line}, column {column}: {source}"), details)
+    }
+
+    /// The file that an option names, which can't be read.
+    pub(crate) fn read(option: &'static str, path: &Path, error: &std::io::Error) -> Self {
+        Self::of_file("read", option, path, error)
+    }
+
+    /// The file that an option names, which can't be written.
+    pub(crate) fn write(option: &'static str, path: &Path, error: &std::io::Error) -> Self {
+        Self::of_file("write", option, path, error)
+    }
+
+    fn of_file(kind: &'static str, option: &'static str, path: &Path, error: &std::io::Error) -> Self {
+        // The files of parts have no option.
+        let shown = if option == "parts" { "PART".to_owned() } else { format!("--{option}") };
+        let is_missing = error.kind() == std::io::ErrorKind::NotFound;
+        let expected = if is_missing { "; expected a file in a folder that exists" } else { "" };
+        let path = path.display().to_string();
+        let message = format!("{shown}: cannot {kind} {path}: {error}{expected}");
+        Self::new(kind, message, json!({"field": option, "path": path}))
+    }
+
+    /// Threads that the system does not start.
+    pub(crate) fn threads(number: usize, error: &rayon::ThreadPoolBuildError) -> Self {
+        let message = format!("cannot start {number} threads: {error}; try --threads 1");
+        Self { exit_code: 1, ..Self::new("threads", message, json!({"field": "threads"})) }
+    }
+
+    /// Standard output that can't be written.
+    #[expect(clippy::needless_pass_by_value, reason = "map_err passes it so")]
+    pub(crate) fn print(error: std::io::Error) -> Self {
+        Self { exit_code: 1, ..Self::new("write", format!("cannot write standard output: {error}"), json!({})) }
+    }
+
+    /// The same failure, which the answer says already.
+    #[must_use]
+    pub(crate) fn said(self) -> Self {
+        Self { is_said: true, ..self }
+    }
+
+    /// Whether work has ended early, whose answer was not known yet.
+    pub(crate) fn is_of_ended_work(&self) -> bool {
+        self.kind == Error::Ended.kind()
     }
 
     /// Says on `err` what is wrong. If that can't be written there is nowhere left to say so.
     pub(crate) fn report(&self, err: &mut dyn Write) {
-        let _ = match self {
-            // With colours and the usage.
-            Self::Arguments(error) => write!(err, "{}", error.render().ansi()),
-            _ => writeln!(err, "error: {}", self.message()),
+        let _ = match &self.of_arguments {
+            Some(rendered) => write!(err, "{rendered}"),
+            None => writeln!(err, "error: {}", self.message),
         };
-    }
-
-    /// The exit code: 1 if the solver failed, the answer can't be printed or threads can't start, 2 for bad usage or input.
-    pub(crate) fn exit_code(&self) -> u8 {
-        match self {
-            Self::Print(_) | Self::Threads { .. } => 1,
-            Self::Ended(ended) => ended.exit_code(),
-            Self::Said(failure) => failure.exit_code(),
-            Self::Unanswered(error) if !error.is_input() => 1,
-            _ => 2,
-        }
-    }
-
-    fn kind(&self) -> &'static str {
-        match self {
-            Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => {
-                error.kind()
-            }
-            Self::Arguments(_) | Self::Usage { .. } | Self::Row { .. } | Self::Part { .. } => "input",
-            Self::Threads { .. } => "threads",
-            Self::Ended(_) => "ended",
-            Self::Said(failure) => failure.kind(),
-            Self::Read { .. } => "read",
-            Self::Print(_) | Self::Write { .. } => "write",
-            Self::Chart(_) => "chart",
-        }
     }
 
     /// `{"error":{"kind":..,"message":..,..},..}` with further fields that depend on the kind, such as `field` or `time`.
@@ -189,39 +173,11 @@ impl Failure {
     /// What is wrong, as the object `error` of an answer.
     pub(crate) fn json(&self) -> Value {
         let mut error = Map::new();
-        error.insert("kind".to_owned(), json!(self.kind()));
-        error.insert("message".to_owned(), json!(self.message()));
-        if let Value::Object(details) = self.details() {
-            error.extend(details);
-        }
+        error.insert("kind".to_owned(), json!(self.kind));
+        error.insert("message".to_owned(), json!(self.message));
+        error.extend(self.details.as_object().cloned().unwrap_or_default());
         error.into()
     }
-
-    fn details(&self) -> Value {
-        match self {
-            Self::Unanswered(error) | Self::Value { source: error, .. } => details(error),
-            Self::Text { path, source } => with(details(source), "path", json!(path)),
-            Self::Row { path, line, column, source } => {
-                let place = [("path", json!(path)), ("line", json!(line)), ("column", json!(column))];
-                place.into_iter().fold(input_details(source), |details, (key, value)| with(details, key, value))
-            }
-            Self::Part { path, .. } => json!({"path": path}),
-            Self::Read { option, path, .. } | Self::Write { option, target: path, .. } => {
-                json!({"field": option, "path": path})
-            }
-            Self::Arguments(error) => argument_details(error),
-            Self::Usage { field, .. } => json!({"field": field}),
-            Self::Threads { .. } => json!({"field": "threads"}),
-            Self::Ended(ended) => json!({"ended": ended.name()}),
-            Self::Said(failure) => failure.details(),
-            Self::Print(_) | Self::Chart(_) => json!({}),
-        }
-    }
-}
-
-/// What is wrong, with the number from 1 of the launch at fault: people count so, and the library by an index from 0.
-fn counted_from_1(error: &Error) -> String {
-    error.clone().after(1).to_string()
 }
 
 /// What clap says is wrong, in a line, without the usage.
@@ -233,16 +189,6 @@ fn words(error: &clap::Error) -> String {
     let text = text.strip_prefix("error: ").unwrap_or(&text);
     let end = ["\n\nUsage:", "\n\nFor more information"].iter().filter_map(|rest| text.find(rest)).min();
     text[..end.unwrap_or(text.len())].split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// An option as it is typed; the files of parts have none.
-fn shown(option: &str) -> String {
-    if option == "parts" { "PART".to_owned() } else { format!("--{option}") }
-}
-
-/// What is valid in place of a file that is not there.
-fn folder(error: &std::io::Error) -> &'static str {
-    if error.kind() == std::io::ErrorKind::NotFound { "; expected a file in a folder that exists" } else { "" }
 }
 
 /// The option that clap complains about, and its value.

@@ -21,7 +21,7 @@ use std::ffi::OsString;
 use std::io::{Read, Write};
 use std::process::ExitCode;
 
-use ::toss::{Error, Registry};
+use ::toss::Registry;
 use clap::error::{ContextKind, ContextValue};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use dynamics::data::NO_WOBBLE;
@@ -148,15 +148,15 @@ pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Stream
         Ok(given) => answer(registry, &given, &mut streams).and_then(|text| output::print(&text, streams.out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
         Err(raw) if is_of_wobble(&raw) => Err(NO_WOBBLE.into()),
-        Err(raw) => Err(Failure::Arguments(refusal(registry, arguments, raw))),
+        Err(raw) => Err(Failure::arguments(&refusal(registry, arguments, raw))),
     };
     let Err(failure) = printed else { return 0 };
     failure.report(streams.err);
-    if wants_json(arguments) && !matches!(failure, Failure::Said(_)) {
+    if wants_json(arguments) && !failure.is_said {
         // If this can't be printed, the message above and the exit code still tell.
         let _ = output::print(&failure.to_json(), streams.out);
     }
-    failure.exit_code()
+    failure.exit_code
 }
 
 /// The program with its commands, options and help texts. Tests make command lines from it.
@@ -180,7 +180,7 @@ fn program_with(registry: &Registry) -> clap::Command {
 /// character that does something to a terminal; `raw` is what is wrong if they are understood then.
 fn refusal(registry: &Registry, arguments: &[OsString], raw: clap::Error) -> clap::Error {
     let printed = |argument: &OsString| {
-        argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into_owned().into())
+        argument.to_str().map_or_else(|| argument.clone(), |text| whole_file::printable(text).into())
     };
     program_with(registry).try_get_matches_from(arguments.iter().map(printed)).err().unwrap_or(raw)
 }
@@ -192,7 +192,7 @@ fn is_of_wobble(error: &clap::Error) -> bool {
 
 /// The answer of the command that the arguments ask for.
 fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) -> Result<String, Failure> {
-    let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
+    let command = Cli::from_arg_matches(given).map_err(|error| Failure::arguments(&error))?.command;
     let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Map::new, |(described, given)| output::input(described, given));
@@ -200,7 +200,7 @@ fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) ->
     let answer = command.run(registry, &asked, streams);
     asked.watch.finish();
     match (answer, asked.watch.ended()) {
-        (Err(Failure::Unanswered(Error::Ended)), Some(ended)) => Err(Failure::Ended(ended)),
+        (Err(failure), Some(ended)) if failure.is_of_ended_work() => Err(ended.into()),
         (Ok(answer), Some(ended)) => {
             // The data of a series have no place for it.
             let _ = writeln!(streams.err, "note: {}; the answer is what was known by then", ended.in_words());

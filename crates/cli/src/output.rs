@@ -108,7 +108,7 @@ impl ChartArgs {
         // XML has no control characters, and the title may have the name of a file.
         let chart = whole_file::printable_lines(&chart);
         if whole_file::leads_to(path) {
-            return Ok(Some(chart.into_owned()));
+            return Ok(Some(chart));
         }
         write("svg", path, &chart)?;
         Ok(None)
@@ -162,14 +162,14 @@ pub(crate) fn has_ending(name: &str, ending: &str) -> bool {
 
 /// The content of the file that an option names.
 pub(crate) fn read_bytes(option: &'static str, path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|source| Failure::Read { option, path: path.display().to_string(), source })
+    std::fs::read(path).map_err(|error| Failure::read(option, path, &error))
 }
 
 /// The text of the file that an option names.
 pub(crate) fn read(option: &'static str, path: &Path) -> Result<String, Failure> {
     whole_file::text(read_bytes(option, path)?).map_err(|wrong| {
         let source = Error::in_text(&wrong.before, Some(wrong.before.len()), wrong.to_string());
-        Failure::Text { path: path.display().to_string(), source }
+        Failure::text(&path.display().to_string(), &source)
     })
 }
 
@@ -187,15 +187,14 @@ pub(crate) fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
 
 /// Writes the file that an option names.
 pub(crate) fn write(option: &'static str, path: &Path, text: &str) -> Result<(), Failure> {
-    let target = || path.display().to_string();
-    whole_file::write(path, text).map_err(|source| Failure::Write { option, target: target(), source })
+    whole_file::write(path, text).map_err(|error| Failure::write(option, path, &error))
 }
 
 /// Refuses a file for an answer whose folder is not there, before anything is computed.
 pub(crate) fn require_folder(option: &'static str, path: &Path) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let found = folder.map_or(Ok(()), |folder| std::fs::metadata(folder).map(drop));
-    found.map_err(|source| Failure::Write { option, target: path.display().to_string(), source })
+    found.map_err(|error| Failure::write(option, path, &error))
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
@@ -205,7 +204,7 @@ pub(crate) fn print(text: &str, out: &mut dyn Write) -> Result<(), Failure> {
         return Ok(());
     }
     let written = out.write_all(format!("{}\n", text.trim_end()).as_bytes()).and_then(|()| out.flush());
-    whole_file::unless_closed(written).map_err(Failure::Print)
+    whole_file::unless_closed(written).map_err(Failure::print)
 }
 
 /// What a command is asked, and the watch over its work.
@@ -302,7 +301,7 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
 
 /// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
-    let printable = |row: &Vec<String>| row.iter().map(|cell| whole_file::printable(cell).into_owned()).collect();
+    let printable = |row: &Vec<String>| row.iter().map(|cell| whole_file::printable(cell)).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(printable).collect();
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);

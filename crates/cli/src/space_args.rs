@@ -178,7 +178,7 @@ pub(crate) fn space_called<const GROUP: usize>(name: &str, coin: &Options<GROUP>
     let space = if output::has_ending(name, ".toml") {
         let text = output::read("space", Path::new(name))?;
         let described = DescribedSpace::from_toml(&text);
-        described.map_err(|source| Failure::Text { path: name.to_owned(), source })?.space
+        described.map_err(|source| Failure::text(name, &source))?.space
     } else if name.contains(['.', '/', '\\']) {
         let known: Vec<&str> = named_spaces().map(|(name, _)| name).collect();
         let known = known.join(", ");
@@ -315,7 +315,7 @@ impl ThreadArgs {
         let builder = ThreadPoolBuilder::new().num_threads(number);
         // One thread is the one that is there.
         let builder = if number == 1 && !is_of_a_pool { builder.use_current_thread() } else { builder };
-        let pool = builder.build().map_err(|source| Failure::Threads { number, source })?;
+        let pool = builder.build().map_err(|error| Failure::threads(number, &error))?;
         Ok(pool.install(job))
     }
 }

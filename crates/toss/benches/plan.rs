@@ -49,7 +49,7 @@ fn outcomes(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("outcomes of 1000 tosses");
     group.bench_function("Scene::solve", |bencher| {
         let heads = |scene: &Scene| {
-            let answer = black_box(scene).solve().expect("small phases").answer;
+            let answer = black_box(scene).solve().expect("small phases");
             matches!(answer, toss::Answer::Outcome(verdict) if verdict.outcome() == Outcome::Heads)
         };
         bencher.iter(|| scenes.iter().filter(|scene| heads(scene)).count());

@@ -146,8 +146,8 @@ fn offered(scene: &Scene, exact: &Reference, entry: &SolverEntry, scheme: Scheme
     let mut failed = None;
     for tolerance in TOLERANCES {
         match flown(scene, exact, entry, scheme, tolerance) {
-            Ok(Flown::Serves(choice)) => return (candidate, Ok(choice)),
-            Ok(Flown::IsOffBy(error)) => smallest = smallest.min(error),
+            Ok(Ok(choice)) => return (candidate, Ok(choice)),
+            Ok(Err(error)) => smallest = smallest.min(error),
             Err(error) => {
                 // A finer tolerance needs still more steps.
                 let is_last = matches!(error, Error::Solve(SolveError::StepLimit { .. }));
@@ -166,21 +166,14 @@ fn offered(scene: &Scene, exact: &Reference, entry: &SolverEntry, scheme: Scheme
     (candidate, Err(reason))
 }
 
-/// What came of a flight at one of the tolerances.
-enum Flown {
-    /// Its error is within the accuracy.
-    Serves(Choice),
-    /// Its error is larger.
-    IsOffBy(f64),
-}
-
+/// The choice of one of the tolerances, or the error of its flight if that is larger than the accuracy.
 fn flown(
     scene: &Scene,
     exact: &Reference,
     entry: &SolverEntry,
     scheme: Scheme,
     tolerance: f64,
-) -> Result<Flown, Error> {
+) -> Result<Result<Choice, f64>, Error> {
     let stepping = Stepping::adaptive(scheme, tolerance)?;
     let solver = solver(entry, stepping)?;
     let mut error = distance(solver.as_ref(), &scene.want, exact)?;
@@ -188,13 +181,13 @@ fn flown(
         error = error.max(solver.tilt(toss)?.error.unwrap_or(f64::INFINITY));
     }
     if error > scene.accuracy {
-        return Ok(Flown::IsOffBy(error));
+        return Ok(Err(error));
     }
     let expected_error = if matches!(scene.want, Want::Outcome(_)) { 0.0 } else { error };
     let of = scene.want.toss().map_or(Of::Coins, |toss| Of::body(&toss.body));
     let expected_cost_ns = cost_ns(solver.as_ref(), costs(entry.name(), scheme, of), &scene.want)?;
     let how = How::Integrator(entry.clone(), stepping);
-    Ok(Flown::Serves(Choice { model: model(), how, expected_error, expected_cost_ns, points: None }))
+    Ok(Ok(Choice { model: model(), how, expected_error, expected_cost_ns, points: None }))
 }
 
 /// How far the answer of `solver` is from that of the exact motion, of cos θ or of the attitude (rad), with what the latter may be

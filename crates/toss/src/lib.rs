@@ -99,10 +99,10 @@
 //! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //!
 //! let outcome = Scene::new(Want::Outcome(toss), 1e-9).solve()?;
-//! assert!(matches!(outcome.answer, Answer::Outcome(verdict) if verdict.is_proven()));
+//! assert!(matches!(outcome, Answer::Outcome(verdict) if verdict.is_proven()));
 //! let tilt = Scene::new(Want::Tilt(toss), 1e-9);
 //! assert_eq!(tilt.plan()?.choice.model.name, "tilt");
-//! assert!(matches!(tilt.solve()?.answer, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
+//! assert!(matches!(tilt.solve()?, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -245,7 +245,6 @@ pub mod quantity {
 pub mod planner {
     pub use crate::choice::{Candidate, Decision, How, Offer};
     pub use crate::model::{MODELS, Model};
-    pub use crate::plan::Solution;
     pub use crate::reason::{Nanoseconds, Reason};
     pub use crate::scene::{Integrator, WantKind};
 }

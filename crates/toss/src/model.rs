@@ -14,7 +14,7 @@
 //! outcome goes through stages of its own and says which of them decided.
 
 use dynamics::coin::NO_COIN;
-use dynamics::{Body, CoinToss, Error, InputError, Solver, Toss};
+use dynamics::{Body, Error, Solver, Toss};
 use exact::{ExactSolver, certify, compensated_cos_tilt, compensated_landing};
 use sampling::{Coordinate, Plan, Rest, Scrambled, Space};
 
@@ -147,11 +147,6 @@ const fn of_others(model: Model) -> Model {
     Model { of: Of::Others, assumes: "I1 ≠ I2", ..model }
 }
 
-/// The coin's toss of a model for coins.
-fn coin(toss: &Toss) -> Result<CoinToss, InputError> {
-    toss.coin().ok_or(NO_COIN)
-}
-
 const fn sample(
     name: &'static str,
     assumes: &'static str,
@@ -170,14 +165,14 @@ pub static MODELS: [Model; 18] = [
         Ok(Answer::Outcome(Verdict::Proven(certify(toss)?)))
     }),
     closed_form("tilt", "cos θ to the last bits", WantKind::Tilt, [7.62e-16, 87.2], |toss, _| {
-        Ok(Answer::Tilt(compensated_cos_tilt(&coin(toss)?)?))
+        Ok(Answer::Tilt(compensated_cos_tilt(&toss.coin().ok_or(NO_COIN)?)?))
     }),
     closed_form(
         "attitude",
         "attitude and body rate to the last bits",
         WantKind::Attitude,
         [1.08e-15, 159.0],
-        |toss, _| Ok(Answer::Attitude(compensated_landing(&coin(toss)?)?)),
+        |toss, _| Ok(Answer::Attitude(compensated_landing(&toss.coin().ok_or(NO_COIN)?)?)),
     ),
     closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, [2.07e-16, 289.0], |toss, _| {
         Ok(Answer::Tilt(ExactSolver.tilt(toss)?.cos_tilt))

@@ -8,7 +8,7 @@
 use dynamics::error::require;
 use dynamics::{Body, Error, InputError, Phases, Toss};
 use exact::{ExactMotion, certify};
-use sampling::{Progress, Sampler};
+use sampling::Sampler;
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, Decision, How, Offer};
@@ -20,15 +20,6 @@ use crate::registry::Registry;
 use crate::samples::{is_missed, run, samples};
 use crate::scene::{Integrator, Scene, Want};
 use crate::trace::require_points;
-
-/// The answer to a scene, and the model that gave it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
-    /// The answer.
-    pub answer: Answer,
-    /// The model.
-    pub model: &'static Model,
-}
 
 impl Scene {
     /// The cheapest model that serves the scene, with the integrators of [`Registry::standard`].
@@ -94,57 +85,39 @@ impl Scene {
         Ok(closed_forms.chain(integrators(registry, None, self)?).collect())
     }
 
-    /// Answers the scene by the model that [`Scene::plan`] chooses.
-    ///
-    /// # Errors
-    /// The [`Error`] of the plan or of the solver.
-    #[inline]
-    pub fn solve(&self) -> Result<Solution, Error> {
-        match &self.want {
-            // A shortcut: an outcome has one model, and planning would cost more than the answer.
-            Want::Outcome(toss @ Toss { body: Body::Coin(_), .. }) if self.by.is_none() && self.accuracy > 0.0 => {
-                Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(toss)?)), model: &MODELS[0] })
-            }
-            _ => self.solve_as_planned(),
-        }
-    }
-
-    #[inline(never)]
-    fn solve_as_planned(&self) -> Result<Solution, Error> {
-        let (choice, answer) = self.choose_and_run(Registry::standard(), &|_| {})?;
-        Ok(Solution { answer, model: choice.model })
-    }
-
-    /// Answers the scene by the model that [`Scene::plan_with`] chooses, and returns that choice with the answer. A model
-    /// that turns out not to reach the accuracy for a space, by its rule or because of rounding, gives way to the next. Where
-    /// there is no next one, an enclosure is the answer as far as it was proven; [`sampling::Estimate::is_wider_than_asked`]
-    /// tells.
-    /// `progress` is called as by [`sampling::Sampler::on_progress`] while launches are sampled.
+    /// Answers the scene by the model that [`Scene::plan`] chooses. A model that turns out not to reach the accuracy for a
+    /// space, by its rule or because of rounding, gives way to the next. Where there is no next one, an enclosure is the answer
+    /// as far as it was proven; [`sampling::Estimate::is_wider_than_asked`] tells.
     ///
     /// # Errors
     /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if samples do not reach the accuracy.
-    pub fn choose_and_run(&self, registry: &Registry, progress: Progress<'_>) -> Result<(Choice, Answer), Error> {
-        self.choose_and_run_by(registry, &Sampler::exact().on_progress(progress))
+    #[inline]
+    pub fn solve(&self) -> Result<Answer, Error> {
+        match &self.want {
+            // A shortcut: an outcome has one model, and planning would cost more than the answer.
+            Want::Outcome(toss @ Toss { body: Body::Coin(_), .. }) if self.by.is_none() && self.accuracy > 0.0 => {
+                Ok(Answer::Outcome(Verdict::Proven(certify(toss)?)))
+            }
+            _ => self.solve_with(&Sampler::exact()),
+        }
     }
 
-    /// As [`Scene::choose_and_run`], with the `sampler` of a space, which decides by the exact motion. When it is
+    /// As [`Scene::solve`], with the `sampler` of a space, which decides by the exact motion. When it is
     /// [time to end](sampling::Sampler::until), the answer is the best estimate so far.
     ///
     /// # Errors
-    /// As [`Scene::choose_and_run`]; [`Error::Ended`] if there is none yet.
-    pub fn choose_and_run_by(&self, registry: &Registry, sampler: &Sampler<'_>) -> Result<(Choice, Answer), Error> {
-        let mut choice = self.plan_with(registry)?.choice;
+    /// As [`Scene::solve`]; [`Error::Ended`] if there is no estimate yet.
+    #[inline(never)]
+    pub fn solve_with(&self, sampler: &Sampler<'_>) -> Result<Answer, Error> {
+        let mut choice = self.plan()?.choice;
         let (mut failed, mut narrowest) = (Vec::new(), None);
         loop {
             failed.push(choice.model);
             let next = self.next(&failed)?;
             let found = choice.run_by(self, sampler, next.as_ref());
             match next.filter(|_| is_missed(&found) && !sampler.is_over()) {
-                Some(next) => {
-                    narrowest = found.ok().map(|answer| (choice, answer)).or(narrowest);
-                    choice = next;
-                }
-                None => return found.map(|answer| (choice, answer)).or_else(|error| narrowest.ok_or(error)),
+                Some(next) => (choice, narrowest) = (next, found.ok().or(narrowest)),
+                None => return found.or_else(|error| narrowest.ok_or(error)),
             }
         }
     }

@@ -69,6 +69,13 @@ pub enum Times {
     Every(f64),
 }
 
+/// So many points.
+impl From<usize> for Times {
+    fn from(points: usize) -> Self {
+        Self::Number(points)
+    }
+}
+
 impl Times {
     /// The times (s), which ascend from 0.
     fn of(self, launch: &Launch) -> Result<Vec<f64>, InputError> {
@@ -79,31 +86,22 @@ impl Times {
     }
 }
 
-/// The flight of `toss`, of a coin or any rigid body, by `solver` at `points` equally spaced times, launch and landing
-/// included.
+/// The flight of `toss`, of a coin or any rigid body, by `solver` at these times, such as a number of points.
 ///
 /// An integrator starts from the previous point, a closed form from the launch. The attitude leaves the
 /// branch of the Euler angles open; the one nearest to the exact motion is taken.
 ///
 /// # Errors
-/// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
-pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
-    trace_points(solver, toss, Times::Number(points))?.collect()
+/// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points, and for a step that is not positive; else the error
+/// of the solver.
+pub fn trace(solver: &dyn Solver, toss: &Toss, times: impl Into<Times>) -> Result<Vec<TracePoint>, Error> {
+    trace_points(solver, toss, times.into())?.collect()
 }
 
-/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing, as [`Times::Every`] says.
+/// The points of [`trace`], each computed when it is asked for. After an error there is none.
 ///
 /// # Errors
-/// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
-/// solver says.
-pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
-    trace_points(solver, toss, Times::Every(step))?.collect()
-}
-
-/// The points of [`trace`] or [`trace_every`], each computed when it is asked for. After an error there is none.
-///
-/// # Errors
-/// [`InputError`] for times that [`trace`] or [`trace_every`] refuses.
+/// [`InputError`] for times that [`trace`] refuses.
 pub fn trace_points<'a>(
     solver: &'a dyn Solver,
     toss: &'a Toss,
@@ -158,19 +156,11 @@ pub struct EnclosedPoint {
     pub certificate: IntegratedCertificate,
 }
 
-/// As [`trace`], with proven bounds of the errors at each point. Each point is a flight from the launch.
-///
-/// # Errors
-/// As [`trace`] and [`QuaternionSolver::enclose`].
-pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> Result<Vec<EnclosedPoint>, Error> {
-    enclosed_points(solver, toss, Times::Number(points))?.collect()
-}
-
-/// As [`trace_points`], with proven bounds of the errors at each point.
+/// As [`trace_points`], with proven bounds of the errors at each point. Each point is a flight from the launch.
 ///
 /// # Errors
 /// As [`trace_points`]; each point has the errors of [`QuaternionSolver::enclose`].
-pub fn enclosed_points<'a>(
+pub fn trace_enclosed<'a>(
     solver: &'a QuaternionSolver,
     toss: &'a Toss,
     times: Times,

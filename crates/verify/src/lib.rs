@@ -29,7 +29,6 @@ pub mod process;
 pub mod render;
 mod shown;
 mod slope;
-mod spaces;
 pub mod suite;
 mod table;
 pub mod watch;

@@ -1,19 +1,17 @@
 //! Texts of others, which may hold what moves the cursor of a terminal or begins a line of its own.
 
-use std::borrow::Cow;
-
 /// `text` on one line: control characters, ends of lines and marks that turn the direction of writing stand as in a string of
 /// Rust, such as `\n` and `\u{1b}`.
 ///
 /// ```
 /// assert_eq!(whole_file::printable("a\u{1b}[31m\nb"), r"a\u{1b}[31m\nb");
 /// ```
-pub fn printable(text: &str) -> Cow<'_, str> {
+pub fn printable(text: &str) -> String {
     escaped(text, is_hidden)
 }
 
 /// As [`printable`], of a text of several lines, whose ends and tabs are left.
-pub fn printable_lines(text: &str) -> Cow<'_, str> {
+pub fn printable_lines(text: &str) -> String {
     escaped(text, |letter| is_hidden(letter) && !matches!(letter, '\n' | '\t'))
 }
 
@@ -28,15 +26,12 @@ pub fn is_hidden(letter: char) -> bool {
         || matches!(letter, '\u{fdd0}'..='\u{fdef}' | '\u{e0000}'..='\u{e007f}')
 }
 
-fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
-    if !text.contains(&is_escaped) {
-        return text.into();
-    }
-    let mut out = String::with_capacity(text.len() + 8);
+fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
+    let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         if is_escaped(letter) { out.extend(letter.escape_default()) } else { out.push(letter) }
     }
-    out.into()
+    out
 }
 
 #[cfg(test)]
@@ -52,7 +47,7 @@ mod tests {
         let none = "\u{fffe}\u{ffff}\u{1fffe}\u{10ffff}\u{fdd0}\u{2066}\u{200f}\u{feff}";
         assert_eq!(printable(none), r"\u{fffe}\u{ffff}\u{1fffe}\u{10ffff}\u{fdd0}\u{2066}\u{200f}\u{feff}");
         for text in ["e\u{301}, עברית, नि, 👩\u{200d}💻, \u{fffd}", hidden, none] {
-            let once = printable(text).into_owned();
+            let once = printable(text);
             assert_eq!(printable(&once), once);
             assert!(!once.contains(is_hidden));
         }

@@ -19,7 +19,7 @@ fn error_estimate(choice: &Choice, toss: &Toss) -> f64 {
 proptest! {
     #![proptest_config(config())]
 
-    /// The models passed over are those before the choice in the table, and `solve` uses the chosen model.
+    /// The models passed over are those before the choice in the table, and `solve` answers as the chosen model does.
     #[test]
     fn a_plan_takes_the_first_model_that_serves(toss in tosses(), decade in 1..15_i32) {
         for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 3 }] {
@@ -30,7 +30,7 @@ proptest! {
             let before: Vec<&Model> = MODELS.iter().take_while(|model| *model != decision.choice.model).collect();
             let passed_over: Vec<&Model> = decision.passed_over.iter().map(|(candidate, _)| candidate.model).collect();
             prop_assert_eq!(before, passed_over);
-            prop_assert_eq!(scene.solve().unwrap().model, decision.choice.model);
+            prop_assert_eq!(scene.solve().unwrap(), decision.choice.run(&scene).unwrap());
         }
     }
 }
@@ -53,7 +53,7 @@ fn each_question_has_the_cheapest_model_that_is_accurate_enough() {
 #[test]
 fn a_proven_outcome_names_the_stage_that_decided() {
     let toss = |rate: &str| -> Toss { toml::from_str(&format!("[launch]\nrate = {rate}\nspeed = 3")).unwrap() };
-    let of = |rate: &str| Scene::new(Want::Outcome(toss(rate)), 1e-9).solve().unwrap().answer;
+    let of = |rate: &str| Scene::new(Want::Outcome(toss(rate)), 1e-9).solve().unwrap();
     let Answer::Outcome(verdict) = of("[20.0, 3.0, 1.0]") else { panic!("an outcome was asked for") };
     assert_eq!(verdict.stage(), Some(Stage::F64));
 }
@@ -121,9 +121,8 @@ fn an_enclosure_is_planned_where_it_is_cheaper_and_its_answer_is_proven() {
         let planned = scene.plan().unwrap().choice;
         assert_eq!(planned.model.name, chosen);
         assert_eq!(planned.is_certified(), chosen == "share-enclosure");
-        let solution = scene.solve().unwrap();
-        let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };
-        assert_eq!((solution.model, found.plan.method().name()), (planned.model, planned.method().unwrap()));
+        let Answer::Probability(found) = scene.solve().unwrap() else { panic!("a probability was asked for") };
+        assert_eq!(found.plan.method().name(), planned.method().unwrap());
         assert!(found.half_width().unwrap() <= accuracy, "{found:?}");
         assert_eq!(found.interval_kind == sampling::IntervalKind::Proven, planned.is_certified());
     }
@@ -157,7 +156,7 @@ fn a_plan_finds_the_narrow_part_of_a_space_that_lands_tails() {
         [(spin.build().unwrap(), 1e-5, 0.986_527_176_1), (gravity.build().unwrap(), 1e-4, 0.944_802_114)]
     {
         let scene = Scene::new(Want::Probability(space), accuracy);
-        let Answer::Probability(found) = scene.solve().unwrap().answer else { panic!("a probability was asked for") };
+        let Answer::Probability(found) = scene.solve().unwrap() else { panic!("a probability was asked for") };
         assert!(found.interval.unwrap().contains(probability), "{found:?}, not {probability}");
         assert!(found.half_width().unwrap() <= accuracy, "{found:?}");
     }
@@ -168,7 +167,7 @@ fn a_plan_that_takes_more_launches_than_planned_says_which_were_tried() {
     let space = Space::builder(Coin::PAPER).rate_x(20.0).rate_y(1.0).rate_z(0.0..=90.0).speed(3.0..=3.01);
     let space = space.build().unwrap();
     let scene = Scene::new(Want::Probability(space), 1e-2);
-    let Answer::Probability(found) = scene.solve().unwrap().answer else { panic!("a probability was asked for") };
+    let Answer::Probability(found) = scene.solve().unwrap() else { panic!("a probability was asked for") };
     assert_eq!((scene.plan().unwrap().choice.points, found.points), (Some(256), 1024));
     assert_eq!(found.plan.points(&space), Ok(found.points));
 }
@@ -181,9 +180,8 @@ fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
     let planned = scene.plan().unwrap().choice;
     assert_eq!(planned.model.name, "share-sobol");
     assert!(matches!(planned.run(&scene), Err(Error::NotReached { .. })));
-    let solution = scene.solve().unwrap();
-    let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };
-    assert_eq!(solution.model.name, "sobol");
+    let Answer::Probability(found) = scene.solve().unwrap() else { panic!("a probability was asked for") };
+    assert_eq!(found.plan.method().name(), "sobol");
     assert!(found.half_width().is_some_and(|reached| reached <= 1e-3), "{found:?}");
 }
 
@@ -191,9 +189,8 @@ fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
 fn an_enclosure_gives_way_and_is_the_answer_where_nothing_else_serves() {
     let figure = || Scene::new(Want::Probability(sampling::named_space("paper-fig4").unwrap()), 1e-7);
     let answer = |scene: &Scene, sampler: &Sampler<'_>| {
-        let (choice, answer) = scene.choose_and_run_by(Registry::standard(), sampler).unwrap();
-        let Answer::Probability(found) = answer else { panic!("a probability was asked for") };
-        (choice.model.name, found)
+        let Answer::Probability(found) = scene.solve_with(sampler).unwrap() else { panic!("a probability was asked for") };
+        (found.plan.method().name(), found)
     };
     assert_eq!(figure().plan().unwrap().choice.model.name, "share-enclosure");
     // A space that takes many more cells than most gives way after the time that sampling is expected to take.
@@ -204,16 +201,16 @@ fn an_enclosure_gives_way_and_is_the_answer_where_nothing_else_serves() {
     // By too few cells, an enclosure is too wide.
     let few = Sampler::exact().within(40);
     let (model, sampled) = answer(&figure(), &few);
-    assert_eq!((model, sampled.is_wider_than_asked()), ("share-sobol", false));
+    assert_eq!((model, sampled.is_wider_than_asked()), ("exact-speed", false));
     // Somebody who ends the sampling has the enclosure.
     let done = AtomicU64::new(0);
     let (count, is_late) = (|more| _ = done.fetch_add(more, Relaxed), || done.load(Relaxed) > 1000);
     let (model, proven) = answer(&figure(), &few.clone().on_progress(&count).until(&is_late));
-    assert_eq!((model, proven.is_wider_than_asked()), ("share-enclosure", true));
+    assert_eq!((model, proven.is_wider_than_asked()), ("enclosure", true));
     assert!(proven.interval.unwrap().contains(sampled.probability) && proven.half_width() > Some(1e-7));
     // No sample reaches this accuracy: an enclosure takes what cells it needs, and if it misses, too, it is the answer.
     let finest = Scene { accuracy: 1e-13, ..figure() };
     let (model, found) = answer(&finest, &Sampler::exact());
-    assert!(model == "share-enclosure" && found.half_width().unwrap() <= 1e-13, "{found:?}");
+    assert!(model == "enclosure" && found.half_width().unwrap() <= 1e-13, "{found:?}");
     assert_eq!(answer(&finest, &few).1.interval, proven.interval);
 }

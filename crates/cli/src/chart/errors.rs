@@ -1,38 +1,32 @@
 //! Draws the error of each method of sampling against the number of launches, so that one sees how fast each converges.
 
-use chart::{Axis, BLUE, ChartError, EndLabel, GREEN, GREY, PURPLE, SIZE, VERMILION, end_labels, frame, pixel, svg};
-use plotters::prelude::*;
+use chart::{
+    Axis, BLUE, ChartError, GREEN, GREY, Marker, PURPLE, SIZE, Series, VERMILION, end_labels, lines as draw_lines, svg,
+};
+use plotters::style::{BLACK, RGBColor};
 use sampling::{ErrorLine, Errors};
 
 const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, BLACK, PURPLE];
 
+/// Room for the labels beside the lines (pixels), and where they begin (from the left).
+const RIGHT: u32 = 420;
+const LABELS: i32 = (SIZE.0 - RIGHT + 12).cast_signed();
+
 /// The chart as SVG, of errors above 0. Its title says `of` what they are.
 pub(crate) fn errors(Errors { lines, reference_error, .. }: &Errors, of: &str) -> Result<String, ChartError> {
     let [(fewest, most), (smallest, largest)] = spans(lines).ok_or(ChartError("every error is 0".to_owned()))?;
+    let x = Axis::logarithmic("launches n", fewest..most);
+    let y = Axis::logarithmic("error, root mean square over seeds", smallest..largest);
+    let floor = [fewest, most].map(|launches| (launches, *reference_error)).to_vec();
+    let floor = Series { width: 2, ..Series::new("error of the reference", GREY, Marker::None, floor) };
+    let series = |(lines, colour): (&[ErrorLine], RGBColor)| {
+        Series::new(lines[0].method, colour, Marker::Disc, drawn(lines).collect())
+    };
+    let methods = lines.chunk_by(|a, b| a.method == b.method).zip(COLOURS).map(series);
+    let all: Vec<Series> = (*reference_error > smallest).then_some(floor).into_iter().chain(methods).collect();
     svg(SIZE, |root| {
-        let (x, y) = (
-            Axis::logarithmic("launches n", fewest..most),
-            Axis::logarithmic("error, root mean square over seeds", smallest..largest),
-        );
-        let mut chart = frame(root, &format!("Error of P(heads), {of}"), (&x, &y), 420)?;
-        let mut labels: Vec<EndLabel> = Vec::new();
-        if *reference_error > smallest {
-            let floor = [fewest, most].map(|launches| (x.position(launches), y.position(*reference_error)));
-            chart.draw_series(LineSeries::new(floor, GREY.stroke_width(2)))?;
-            let y = pixel(root, &chart, floor[1]).1;
-            labels.push(EndLabel { y, text: "error of the reference".to_owned(), colour: GREY });
-        }
-        for (series, colour) in lines.chunk_by(|a, b| a.method == b.method).zip(COLOURS) {
-            let points: Vec<(f64, f64)> =
-                drawn(series).map(|(launches, error)| (x.position(launches), y.position(error))).collect();
-            chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(4)))?;
-            chart.draw_series(points.iter().map(|point| Circle::new(*point, 7, colour.filled())))?;
-            if let Some(end) = points.last() {
-                let y = pixel(root, &chart, *end).1;
-                labels.push(EndLabel { y, text: series[0].method.to_owned(), colour });
-            }
-        }
-        end_labels(root, chart.plotting_area().get_pixel_range().0.end + 12, labels)
+        let labels = draw_lines(root, &format!("Error of P(heads), {of}"), (&x, &y), &all, RIGHT)?;
+        end_labels(root, LABELS, labels)
     })
 }
 

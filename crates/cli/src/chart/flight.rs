@@ -8,7 +8,7 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use toss::catalogue::entries;
-use toss::{Attitude, Body, CoinMotion, ExactMotion, Outcome, TimeOfFlight, Toss, TracePoint, Vector3};
+use toss::{Attitude, Body, CoinMotion, ExactMotion, Outcome, Toss, TracePoint, Vector3};
 
 use crate::chart::solid::{EDGE, Seen, Solid, TAILS, draw_cuboid, end_of, project};
 use crate::quantity::shortest;
@@ -186,14 +186,18 @@ const LAYERS: u32 = 6;
 
 /// Draws the coins of `flight`, the trace of `toss`.
 fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
-    let thrown = Thrown::new(toss.launch.time_of_flight());
-    let heights: Vec<f64> = flight.iter().map(|point| thrown.height(point.time)).collect();
+    let time_of_flight = toss.launch.time_of_flight();
+    // If only a time is given, it lands at the height that it left from.
+    let level = || [0.5 * DEFAULT_GRAVITY * time_of_flight.seconds(), DEFAULT_GRAVITY];
+    let [speed, gravity] = time_of_flight.throw().unwrap_or_else(level);
+    let heights: Vec<f64> =
+        flight.iter().map(|&TracePoint { time, .. }| (speed - 0.5 * gravity * time) * time).collect();
     let (lowest, highest) = heights.iter().fold((0.0_f64, 0.0_f64), |(lo, hi), at| (lo.min(*at), hi.max(*at)));
     let room = 0.14 * (highest - lowest).max(f64::MIN_POSITIVE);
     if !room.is_finite() {
         return Err(ChartError("a flight so high can't be drawn".to_owned()).into());
     }
-    let height = format!("height [m], at g = {} m/s²", shortest(thrown.gravity));
+    let height = format!("height [m], at g = {} m/s²", shortest(gravity));
     let (x, y) = (times("", flight), Axis::linear(&height, lowest - room..highest + room));
     let chart = frame(panel, "", (&x, &y), RIGHT)?;
     let solid = Solid::new(&toss.body);
@@ -202,28 +206,6 @@ fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
         draw_coin(panel, centre, &flight[index].attitude, solid)?;
     }
     Ok(())
-}
-
-/// The vertical motion of a throw.
-struct Thrown {
-    /// v0 (m/s).
-    speed: f64,
-    /// g (m/s²).
-    gravity: f64,
-}
-
-impl Thrown {
-    /// The throw that takes as long. If only a time is given, it lands at the height that it left from.
-    fn new(time_of_flight: TimeOfFlight) -> Self {
-        let level = || [0.5 * DEFAULT_GRAVITY * time_of_flight.seconds(), DEFAULT_GRAVITY];
-        let [speed, gravity] = time_of_flight.throw().unwrap_or_else(level);
-        Self { speed, gravity }
-    }
-
-    /// The height above the launch (m) at a time after it (s).
-    fn height(&self, time: f64) -> f64 {
-        (self.speed - 0.5 * self.gravity * time) * time
-    }
 }
 
 /// Draws the coin or the `solid` about `centre` (pixels), with n and the vector in the face.
@@ -366,7 +348,7 @@ fn draw_legend(panel: &Panel<'_>, is_too_fast: bool, solid: Solid) -> Drawn {
 
 #[cfg(test)]
 mod tests {
-    use toss::{Coin, Launch};
+    use toss::{Coin, Launch, TimeOfFlight};
 
     use super::*;
 

@@ -5,6 +5,7 @@ mod flight;
 mod limit;
 mod map;
 mod people;
+mod running;
 mod solid;
 
 pub(crate) use errors::errors;
@@ -12,3 +13,4 @@ pub(crate) use flight::{flight, named, points_to_draw};
 pub(crate) use limit::limit;
 pub(crate) use map::map;
 pub(crate) use people::{MOST_PEOPLE, people};
+pub(crate) use running::running;

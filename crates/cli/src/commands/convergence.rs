@@ -6,6 +6,7 @@ use sampling::{RunningStep, Sampler};
 use toss::defaults::{self, SEED};
 use toss::{Error, Registry};
 
+use crate::chart;
 use crate::failure::Failure;
 use crate::output::{Asked, SeriesArgs};
 use crate::quantity;

@@ -84,7 +84,7 @@ fn in_file(path: &Path) -> Result<Vec<Named>, Failure> {
     let path = || path.display().to_string();
     sampling::people(&bytes).map_err(|wrong| match wrong {
         CountsError::Table(error) => Failure::table(&path(), error),
-        CountsError::Cell { line, column, source } => Failure::Row { path: path(), line, column, source },
+        CountsError::Cell { line, column, source } => Failure::row(&path(), [line, column as u64], &source),
     })
 }
 

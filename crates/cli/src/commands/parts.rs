@@ -104,9 +104,9 @@ fn already_there(path: &Path, space: &Space, plan: Plan, range: &Range<u64>) -> 
         Ok(_) => Err(Failure::part(&shown, "it holds another part; remove it to write this one".to_owned())),
         Err(Error::Text { line, column, message }) => {
             let message = format!("{message}; it holds no part, remove it to write one");
-            Err(Failure::Text { path: shown, source: Error::Text { line, column, message } })
+            Err(Failure::text(&shown, &Error::Text { line, column, message }))
         }
-        Err(source) => Err(Failure::Text { path: shown, source }),
+        Err(source) => Err(Failure::text(&shown, &source)),
     }
 }
 
@@ -155,10 +155,8 @@ impl Args {
 impl Part {
     fn read(path: &Path) -> Result<Self, Failure> {
         let (text, path) = (output::read("parts", path)?, path.display().to_string());
-        match output::from_json(&text) {
-            Ok(tally) => Ok(Self { path, tally }),
-            Err(source) => Err(Failure::Text { path, source }),
-        }
+        let tally = output::from_json(&text).map_err(|source| Failure::text(&path, &source))?;
+        Ok(Self { path, tally })
     }
 
     fn refused(&self, message: String) -> Failure {

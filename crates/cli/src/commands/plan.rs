@@ -99,7 +99,7 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
     let (text, shown) = (output::read("scene", path)?, path.display().to_string());
     let is_json = output::has_ending(&shown, ".json");
     let scene = if is_json { output::from_json(&text) } else { output::from_toml(&text) };
-    scene.map_err(|source| Failure::Text { path: shown, source })
+    scene.map_err(|source| Failure::text(&shown, &source))
 }
 
 fn text(Decision { choice, passed_over }: &Decision, scene: &Scene) -> String {

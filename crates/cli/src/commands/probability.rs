@@ -145,8 +145,7 @@ impl Args {
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
         let is_enclosed = scene.plan()?.choice.method() == Some(Method::Enclosure.name());
         watch.show(None, if is_enclosed { "cells or launches" } else { "launches" });
-        let run = |sampler: &Sampler<'_>| scene.choose_and_run_by(Registry::standard(), sampler);
-        let (_, answer) = self.threads.run(|| watch.ask(backend.sampler(), run))??;
+        let answer = self.threads.run(|| watch.ask(backend.sampler(), |sampler| scene.solve_with(sampler)))??;
         if let Answer::Probability(found) = answer { Ok(*found) } else { Err(no_sample()) }
     }
 

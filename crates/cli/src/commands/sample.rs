@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use sampling::{Drawn, Method, Plan, Scrambled};
 use serde::Serialize;
 use toss::defaults::SEED;
-use toss::{Backend, Body, Error, InputError, Registry, Toss, Verdict};
+use toss::{Backend, Body, Error, InputError, Registry, Toss};
 use whole_file::{Row as Cells, Table, TableError};
 
 use crate::Streams;
@@ -163,8 +163,9 @@ impl Args {
 
 /// A launch of a space.
 fn given(drawn: &Drawn) -> Given {
-    let [wx, wy, wz, speed, gravity, tilt] = drawn.values;
-    let (speed, gravity, drop) = (Some(speed), Some(gravity), drawn.toss.launch.time_of_flight().drop());
+    let [wx, wy, wz, speed, gravity, tilt] = drawn.values.map(without_sign_of_zero);
+    let (speed, gravity) = (Some(speed), Some(gravity));
+    let drop = drawn.toss.launch.time_of_flight().drop().map(without_sign_of_zero);
     Given { row: Row { wx, wy, wz, speed, gravity, drop, tilt, ..Row::default() }, toss: drawn.toss }
 }
 
@@ -190,7 +191,13 @@ fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
     let toss: &Toss = &given.toss;
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
     let (tilt, verdict) = backend.landed(toss).map_err(failed)?;
-    Ok(given.row.landed(toss, tilt.cos_tilt, verdict))
+    Ok(Row {
+        flight_time: without_sign_of_zero(toss.launch.flight_time()),
+        cos_tilt: without_sign_of_zero(tilt.cos_tilt),
+        outcome: verdict.outcome().name(),
+        certified: verdict.is_proven(),
+        ..given.row
+    })
 }
 
 /// A launch with its row, in which what belongs to its landing is not filled in yet.
@@ -201,7 +208,7 @@ struct Given {
 }
 
 /// A row: body rate (rad/s), speed (m/s) or time of flight (s), gravity (m/s²), drop (m) and tilt (rad), all as they were
-/// given; time of flight (s), cos θ at landing, outcome, and whether it is proven.
+/// given, without signs of 0; time of flight (s), cos θ at landing, outcome, and whether it is proven.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 struct Row {
     wx: f64,
@@ -216,26 +223,6 @@ struct Row {
     cos_tilt: f64,
     outcome: &'static str,
     certified: bool,
-}
-
-impl Row {
-    fn landed(self, toss: &Toss, cos_tilt: f64, verdict: Verdict) -> Self {
-        let plain = |value: Option<f64>| value.map(without_sign_of_zero);
-        Self {
-            wx: without_sign_of_zero(self.wx),
-            wy: without_sign_of_zero(self.wy),
-            wz: without_sign_of_zero(self.wz),
-            speed: plain(self.speed),
-            time: plain(self.time),
-            drop: plain(self.drop),
-            tilt: without_sign_of_zero(self.tilt),
-            flight_time: without_sign_of_zero(toss.launch.flight_time()),
-            cos_tilt: without_sign_of_zero(cos_tilt),
-            outcome: verdict.outcome().name(),
-            certified: verdict.is_proven(),
-            ..self
-        }
-    }
 }
 
 /// Writes rows to standard output as they come.
@@ -274,7 +261,7 @@ impl<'a> Writer<'a> {
 
     /// Lets the reader of standard output have all that was written.
     fn finish(&mut self) -> Result<(), Failure> {
-        whole_file::unless_closed(self.out.flush()).map_err(Failure::Print)
+        whole_file::unless_closed(self.out.flush()).map_err(Failure::print)
     }
 
     fn csv(&self, rows: &[Row]) -> Vec<u8> {
@@ -288,7 +275,7 @@ impl<'a> Writer<'a> {
     fn print(&mut self, text: &[u8]) -> Result<(), Failure> {
         match self.out.write_all(text) {
             Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => self.is_closed = true,
-            written => written.map_err(Failure::Print)?,
+            written => written.map_err(Failure::print)?,
         }
         Ok(())
     }
@@ -361,8 +348,8 @@ fn thrown(row: &Cells, columns: &[Option<Field>], body: Body) -> Result<Given, I
     }
     let thrown = thrown.in_si();
     let launch = thrown.launch(&body, thrown.time_of_flight()?)?;
-    let si = |field| thrown.one(field).map(dynamics::quantity::Given::si);
-    let [wx, wy, wz] = launch.rate().into();
+    let si = |field| thrown.one(field).map(|given| without_sign_of_zero(given.si()));
+    let [wx, wy, wz] = <[f64; 3]>::from(launch.rate()).map(without_sign_of_zero);
     let speed = si(Field::Speed);
     let gravity = speed.map(|_| si(Field::Gravity).unwrap_or(DEFAULT_GRAVITY));
     let (time, drop, tilt) = (si(Field::Time), si(Field::Drop), si(Field::Tilt).unwrap_or(0.0));

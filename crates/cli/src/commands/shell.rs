@@ -106,7 +106,7 @@ impl ManArgs {
             Failure::usage("command", format!("command = '{name}' is unknown; known: {}", commands.join(", ")))
         })?;
         let mut text = Vec::new();
-        page(found.clone(), &mut text).map_err(Failure::Print)?;
+        page(found.clone(), &mut text).map_err(Failure::print)?;
         Ok(String::from_utf8_lossy(&text).into_owned())
     }
 }

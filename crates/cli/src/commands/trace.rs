@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 use toss::defaults::TRACE_POINTS;
 use toss::quantity::Dimension;
-use toss::trace::{EnclosedPoint, MOST_POINTS, Times, enclosed_points, trace_points};
+use toss::trace::{EnclosedPoint, MOST_POINTS, Times, trace_enclosed, trace_points};
 use toss::{Error, QuaternionSolver, Registry, Solver, Toss, TracePoint, trace};
 
 use crate::Streams;
@@ -77,7 +77,7 @@ impl Args {
         }
         asked.watch.show_beside_rows(self.points.map(|points| points as u64), "points");
         let rows = Rows { format: self.series.format(), solver: solver.name(), asked };
-        let closed_or = |printed: std::io::Result<()>| whole_file::unless_closed(printed).map_err(Failure::Print);
+        let closed_or = |printed: std::io::Result<()>| whole_file::unless_closed(printed).map_err(Failure::print);
         let mut failed = None;
         closed_or(rows.print(points, streams.out, &mut failed))?;
         failed.map_or_else(|| Ok(String::new()), Err)
@@ -103,7 +103,7 @@ impl Args {
             error_bound: Some(certificate.error_bound()),
             attitude_error_bound: Some(certificate.attitude_error_bound()),
         };
-        Ok(Box::new(enclosed_points(prover, toss, times)?.map(move |point| point.map(bounded))))
+        Ok(Box::new(trace_enclosed(prover, toss, times)?.map(move |point| point.map(bounded))))
     }
 }
 
@@ -138,7 +138,7 @@ impl Rows<'_> {
                 // Where the points end, the object says why.
                 if let Some(failure) = failed.take() {
                     write!(out, ",\"error\":{}", plain_json(&failure.json()))?;
-                    *failed = Some(Failure::Said(Box::new(failure)));
+                    *failed = Some(failure.said());
                 } else if let Some(ended) = watch.ended() {
                     write!(out, ",\"ended\":\"{}\"", ended.name())?;
                 }

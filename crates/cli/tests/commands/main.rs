@@ -20,4 +20,3 @@ mod registry;
 mod sample;
 mod sampling;
 mod shards;
-mod units;

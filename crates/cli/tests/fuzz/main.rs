@@ -3,7 +3,8 @@
 //! not at all, and time and memory are bounded.
 //!
 //! The cases are the same in every run, and those that are run by default are part of the full number. A case that fails is
-//! printed as a command for bash. One that ends the whole process stands in the file `tmp/fuzz-case` of the build's folder.
+//! printed with its number, by which `Case::new` makes it again, with its files. One that ends the whole process, as a failed
+//! allocation does, or that never ends stands in the file `tmp/fuzz-case` of the build's folder.
 //!
 //! ```sh
 //! cargo test --release -p unfair-toss --test fuzz -- --include-ignored --nocapture
@@ -21,7 +22,7 @@ mod lines;
 use std::collections::BTreeMap;
 
 use case::Case;
-use case_run::{pasted, run};
+use case_run::run;
 use check::violations;
 
 /// Runs `number` cases from the one with the number `first`, and panics with those in which something does not hold.
@@ -31,11 +32,14 @@ fn fuzz(first: u64, number: u64) {
     let (mut failures, mut codes) = (Vec::new(), BTreeMap::<(String, Option<i32>), u64>::new());
     for index in first..first + number {
         let case = Case::new(&program, index);
+        let said = format!("case {index}: {:?}", case.arguments.concat());
+        std::fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/fuzz-case"), &said)
+            .expect("the build's folder is writable");
         let ran = run(&case, folder.path());
         *codes.entry((case.command(), ran.code)).or_default() += 1;
         let found = violations(&case, &ran);
         if !found.is_empty() {
-            failures.push(format!("case {index}: {}\n  {}\n", pasted(&case), found.join("\n  ")));
+            failures.push(format!("{said}\n  {}\n", found.join("\n  ")));
             eprintln!("{}", failures[failures.len() - 1]);
         }
         if failures.len() == 20 {

@@ -55,17 +55,17 @@ fn a_trace_by_steps_of_time_ends_at_the_landing() {
     let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
     let toss = Toss::new(Coin::PAPER, launch);
     let times = |step: f64| -> Vec<f64> {
-        trace_every(&ExactSolver, &toss, step).unwrap().iter().map(|point| point.time).collect()
+        trace(&ExactSolver, &toss, Times::Every(step)).unwrap().iter().map(|point| point.time).collect()
     };
     assert_eq!(times(0.3), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
     assert_eq!((times(0.25), times(1.0)), (vec![0.0, 0.25, 0.5, 0.75, 1.0], vec![0.0, 1.0]));
     assert_eq!(times(7.0), [0.0, 1.0]);
-    assert_eq!(trace_every(&ExactSolver, &toss, 0.25).unwrap(), trace(&ExactSolver, &toss, 5).unwrap());
+    assert_eq!(trace(&ExactSolver, &toss, Times::Every(0.25)).unwrap(), trace(&ExactSolver, &toss, 5).unwrap());
     for step in [0.0, -0.1, f64::NAN, 1e-6] {
-        assert_eq!(trace_every(&ExactSolver, &toss, step).unwrap_err().field(), Some("dt [s]"));
+        assert_eq!(trace(&ExactSolver, &toss, Times::Every(step)).unwrap_err().field(), Some("dt [s]"));
     }
     let still = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(0.0)).unwrap(), ..toss };
-    assert_eq!(trace_every(&ExactSolver, &still, 0.1).unwrap().len(), 1);
+    assert_eq!(trace(&ExactSolver, &still, Times::Every(0.1)).unwrap().len(), 1);
 }
 
 /// 0.9 is three steps of 0.3, though 3 × 0.3 is 0.899999999999999911 in f64. All are read as decimals, as they are typed.
@@ -135,6 +135,10 @@ fn the_error_of_a_later_leg_has_the_time_since_launch() {
     assert_eq!(error, Error::Solve(SolveError::NotFinite { time: 1.5 }));
 }
 
+fn enclosed(solver: &QuaternionSolver, toss: &Toss, times: Times) -> Result<Vec<EnclosedPoint>, Error> {
+    trace_enclosed(solver, toss, times)?.collect()
+}
+
 #[test]
 fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
     let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.5)).unwrap();
@@ -142,23 +146,23 @@ fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
     let taylor = Stepping::adaptive(dynamics::Scheme::TAYLOR, 1e-6).unwrap();
     let solver = QuaternionSolver::new(taylor, dynamics::Formulation::default());
     let motion = ExactMotion::new(&toss);
-    let traced = trace_enclosed(&solver, &toss, 31).unwrap();
+    let traced = enclosed(&solver, &toss, 31.into()).unwrap();
     assert_eq!((traced.len(), traced[30].point.time), (31, 1.5));
     for EnclosedPoint { point, certificate } in &traced {
         let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
         assert!(error <= certificate.error_bound(), "{error:e}");
     }
-    assert_eq!(enclosed_points(&solver, &toss, Times::Every(0.05)).unwrap().count(), 31);
+    assert_eq!(enclosed(&solver, &toss, Times::Every(0.05)).unwrap().len(), 31);
     let book = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch: toss.launch };
     let motion = ExactMotion::new(&book);
-    for EnclosedPoint { point, certificate } in &trace_enclosed(&solver, &book, 31).unwrap() {
+    for EnclosedPoint { point, certificate } in &enclosed(&solver, &book, 31.into()).unwrap() {
         let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
         assert!(error <= certificate.error_bound() && certificate.error_bound() < 1e-4, "{error:e}");
     }
     let dop853 = QuaternionSolver::new(Stepping::DEFAULT, dynamics::Formulation::default());
     let raw = QuaternionSolver::new(taylor, dynamics::Formulation::RAW);
     for (solver, toss) in [(&dop853, &book), (&dop853, &toss), (&raw, &toss)] {
-        let refused = trace_enclosed(solver, toss, 3).unwrap_err();
+        let refused = enclosed(solver, toss, 3.into()).unwrap_err();
         assert!(matches!(refused, Error::Solve(SolveError::NotProven { .. })), "{refused}");
     }
 }

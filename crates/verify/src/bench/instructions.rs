@@ -13,10 +13,10 @@ use rayon::ThreadPoolBuilder;
 use sampling::{Plan, Rest, Sampler, Scrambled};
 use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR, Tilt};
 
+use super::launches::box_of_launches;
 use super::tosses::Columns;
 use crate::files;
-use crate::spaces::box_of_launches;
-use crate::table::{Kind, Table};
+use crate::table;
 
 /// Number of tosses in a work of many tosses.
 const TOSSES: usize = 512;
@@ -160,7 +160,7 @@ fn tosses(name: &str) -> usize {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Instructions(BTreeMap<String, f64>);
 
-const COLUMNS: Table<1, 1> = Table { name: ["work"], numbers: [("instructions", Kind::Number)] };
+const COLUMNS: [&str; 2] = ["work", "instructions"];
 
 impl Instructions {
     /// Counts the instructions of all works that this machine can do, by running this program under valgrind.
@@ -175,8 +175,9 @@ impl Instructions {
     /// Reads the baseline from the file at `path`; empty if there is no file.
     pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
         let Some(text) = files::read_if_any(path)? else { return Ok(Self::default()) };
-        let rows = COLUMNS.read(&text).with_context(|| format!("cannot read {}", path.display()))?;
-        Ok(Self(rows.into_iter().filter_map(|([work], [count])| Some((work, count?))).collect()))
+        let count = |row: table::Row<2>| Ok((row.cells[0].clone(), row.number(1)?));
+        let counts = table::rows(&text, COLUMNS, 1).and_then(|rows| rows.into_iter().map(count).collect());
+        Ok(Self(counts.with_context(|| format!("cannot read {}", path.display()))?))
     }
 
     /// Writes the baseline with counts that are smaller or new; larger ones are not taken over.
@@ -185,8 +186,8 @@ impl Instructions {
         for (work, count) in &self.0 {
             best.entry(work.clone()).and_modify(|old| *old = old.min(*count)).or_insert(*count);
         }
-        let row = |(work, count): (String, f64)| ([work], [Some((10.0 * count).round() / 10.0)]);
-        files::write(path, &COLUMNS.text(&best.into_iter().map(row).collect())?)
+        let row = |(work, count): (String, f64)| [work, format!("{:?}", (10.0 * count).round() / 10.0)];
+        files::write(path, &table::text(COLUMNS, best.into_iter().map(row))?)
     }
 
     /// The table of counts beside `baseline`, and whether a work takes more instructions than allowed.

@@ -3,14 +3,20 @@
 
 use anyhow::Context;
 use rayon::ThreadPoolBuilder;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Plan, Rest, Sampler, Scrambled, Space, named_space};
+use toss::{Coin, InputError};
 
 use super::contest::Contest;
-use crate::spaces::box_of_launches;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
 const ENCLOSURE: &str = "P(heads) by enclosure, a whole estimate";
+
+/// The paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s.
+pub(super) fn box_of_launches() -> Result<Space, InputError> {
+    Space::parse(Coin::PAPER, &[(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")])
+}
 
 /// Estimates by each method over the space of the paper's Fig. 4 and over the box of launches, on one thread and on all. Of
 /// enclosure nobody chooses the number of shares, so that its times are those of whole estimates.

@@ -14,10 +14,10 @@ use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space, named_space};
 use toss::Error;
 use toss::planner::Nanoseconds;
 
+use super::launches::box_of_launches;
 use crate::clock;
 use crate::host::Host;
 use crate::slope::slope;
-use crate::spaces::box_of_launches;
 
 /// How long each method takes to an accuracy, on one core.
 pub(crate) struct ToAccuracy {

@@ -16,7 +16,7 @@ use super::row::Row;
 use crate::files;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::{Sample, Sweep};
-use crate::table::{Kind, Table};
+use crate::table;
 
 /// An error is worse if it is more than this many times the accepted one, and better if it is less by the same factor;
 /// [`Baseline::worse_above`] takes another number.
@@ -68,8 +68,7 @@ impl FromIterator<(Key, Entry)> for Baseline {
     }
 }
 
-const COLUMNS: Table<2, 2> =
-    Table { name: ["check", "subject"], numbers: [("error", Kind::Number), ("calls", Kind::CountIfAny)] };
+const COLUMNS: [&str; 4] = ["check", "subject", "error", "calls"];
 
 /// The file, in the folder `baseline`, of the baseline for runs at `effort` on this machine's architecture.
 ///
@@ -158,15 +157,14 @@ impl Baseline {
     /// The baseline that the lines of CSV in `text` describe.
     ///
     /// # Errors
-    /// If a number is negative or not finite, two rows have the same name, a column is missing or unknown, or there is no
-    /// row.
+    /// If a number is negative or not finite, two rows have the same name, the heading is another one, or there is no row.
     pub fn parse(text: &str) -> anyhow::Result<Self> {
-        let entry = |([check, subject], [error, calls]): ([String; 2], [Option<f64>; 2])| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the table has whole numbers")]
-            let calls = calls.map(|calls| calls as u64);
-            Some(((check, subject), Entry { error: error?, calls }))
+        let entry = |row: table::Row<4>| {
+            let entry = Entry { error: row.number(2)?, calls: row.count(3)? };
+            let [check, subject, ..] = row.cells;
+            Ok(((check, subject), entry))
         };
-        Ok(COLUMNS.read(text)?.into_iter().filter_map(entry).collect())
+        table::rows(text, COLUMNS, 2)?.into_iter().map(entry).collect()
     }
 
     /// The baseline as CSV, one line per entry.
@@ -175,9 +173,12 @@ impl Baseline {
     /// If [`Baseline::parse`] would refuse it.
     pub fn csv(&self) -> anyhow::Result<String> {
         let row = |((check, subject), Entry { error, calls }): (&Key, &Entry)| {
-            ([check.clone(), subject.clone()], [Some(*error), calls.map(|calls| calls as f64)])
+            let calls = calls.map(|calls| calls.to_string()).unwrap_or_default();
+            [check.clone(), subject.clone(), format!("{error:?}"), calls]
         };
-        COLUMNS.text(&self.entries.iter().map(row).collect())
+        let text = table::text(COLUMNS, self.entries.iter().map(row))?;
+        // A run must not leave a baseline that every later run refuses.
+        Self::parse(&text).map(|_| text)
     }
 
     /// The error of `subject` under `check`.

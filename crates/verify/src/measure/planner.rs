@@ -7,16 +7,17 @@
 
 use std::f64::consts::PI;
 
-use anyhow::{bail, ensure};
+use anyhow::bail;
 use dynamics::coin::NO_COIN;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use toss::catalogue::CATALOGUE;
+use toss::planner::Integrator;
 use toss::{
-    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, SolveError, TimeOfFlight,
-    Toss, TracePoint, Vector3, Want, level_speeds_of_heads,
+    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, TimeOfFlight, Toss,
+    TracePoint, Vector3, Want, level_speeds_of_heads,
 };
 
 use crate::measure::case;
@@ -52,7 +53,10 @@ pub(crate) struct Errors {
 /// Solves a number of random scenes that depends on the effort.
 pub(super) fn random_scenes(context: &Context) -> anyhow::Result<Vec<Planned>> {
     let (tosses, spaces) = context.effort.of([(1000, 6), (10_000, 24), (10_000, 100)]);
-    let tosses = (0..tosses).into_par_iter().map(|index| solve(&toss_scene(SEED, index)?));
+    let tosses = (0..tosses).into_par_iter().map(|index| {
+        let (kind, scene) = toss_scene(SEED, index)?;
+        solve(kind, &scene, true)
+    });
     let mut planned: Vec<Planned> = tosses.collect::<anyhow::Result<_>>()?;
     for index in 0..spaces {
         planned.push(solve_space(index)?);
@@ -60,45 +64,32 @@ pub(super) fn random_scenes(context: &Context) -> anyhow::Result<Vec<Planned>> {
     Ok(planned)
 }
 
-/// What was planned or answered; `None` if the accuracy is out of reach, or the integrator does not solve the toss.
-fn unless_refused<T>(found: Result<T, Error>) -> Result<Option<T>, Error> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(Error::Input(InputError::OutOfRange { field: "accuracy", .. }) | Error::Solve(_)) => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
-fn solve(TossScene { kind, scene, toss }: &TossScene) -> anyhow::Result<Planned> {
-    let input = input(scene, &case::text(toss));
-    let planned = |errors| Planned { kind, errors, input };
-    let Some(plan) = unless_refused(scene.plan())? else { return Ok(planned(None)) };
-    let (choice, solution) = (plan.choice, scene.solve()?);
-    ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
-    let error = Truth::new(toss)?.error(scene, &solution.answer)?;
-    let expected = choice.expected_error;
-    let is_far_below = expected > 30.0 * error.max(ROUNDING);
-    let error_of_family =
-        if is_far_below { error.max(largest_of_neighbours(&choice, scene, toss)?.unwrap_or(0.0)) } else { error };
-    let by_expected = error_of_family / expected.max(ROUNDING);
-    Ok(planned(Some(Errors { by_accuracy: error / scene.accuracy, by_expected })))
-}
-
-/// Solves a scene about `toss` that is hostile to integrators, of which the expected error is not asked.
-pub(super) fn solve_hostile(kind: &'static str, scene: &Scene, toss: &Toss, input: String) -> anyhow::Result<Planned> {
-    let answer = unless_refused(scene.plan().and_then(|plan| plan.choice.run(scene)))?;
-    let errors = |answer: Answer| {
-        let by_accuracy = Truth::new(toss)?.error(scene, &answer)? / scene.accuracy;
-        anyhow::Ok(Errors { by_accuracy, by_expected: f64::NAN })
-    };
-    Ok(Planned { kind, errors: answer.map(errors).transpose()?, input })
-}
-
-/// The scene in words; `of` names its toss or space.
-fn input(scene: &Scene, of: &str) -> String {
+/// Solves a scene about a toss. Similar tosses are tried, too, if it `is_expected` that its error may be small by luck.
+pub(super) fn solve(kind: &'static str, scene: &Scene, is_expected: bool) -> anyhow::Result<Planned> {
+    let toss = toss_of(scene);
     let wanted = scene.want.kind().name();
-    let by = scene.by.as_ref().map(|by| format!(" by {}", by.solver)).unwrap_or_default();
-    format!("{of} # {wanted} to {:e}{by}", scene.accuracy)
+    let by = |by: &Integrator| format!(" by {} {}", by.solver, by.scheme.as_deref().unwrap_or("any"));
+    let by = scene.by.as_ref().map(by).unwrap_or_default();
+    let input = format!("{} # {wanted} to {:e}{by}", case::text(toss), scene.accuracy);
+    let choice = match scene.plan() {
+        Ok(plan) => plan.choice,
+        Err(Error::Input(InputError::OutOfRange { field: "accuracy", .. }) | Error::Solve(_)) => {
+            return Ok(Planned { kind, errors: None, input });
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let error = error(scene, &choice.run(scene)?)?;
+    let expected = choice.expected_error;
+    let is_far_below = is_expected && expected > 30.0 * error.max(ROUNDING);
+    let error_of_family =
+        if is_far_below { error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0)) } else { error };
+    let by_expected = error_of_family / expected.max(ROUNDING);
+    Ok(Planned { kind, errors: Some(Errors { by_accuracy: error / scene.accuracy, by_expected }), input })
+}
+
+/// The toss of a scene that has one.
+fn toss_of(scene: &Scene) -> &Toss {
+    scene.want.toss().expect("a scene about a toss")
 }
 
 fn solve_space(index: u64) -> anyhow::Result<Planned> {
@@ -110,27 +101,20 @@ fn solve_space(index: u64) -> anyhow::Result<Planned> {
     let error = (estimate.probability - true_probability(&space, POINTS)?).abs();
     let by_expected = error / choice.expected_error.max(ROUNDING);
     let errors = Some(Errors { by_accuracy: error / scene.accuracy, by_expected });
-    Ok(Planned { kind: "probability", errors, input: input(&scene, &format!("space {index} of seed {SEED}")) })
+    let input = format!("space {index} of seed {SEED} # probability to {:e}", scene.accuracy);
+    Ok(Planned { kind: "probability", errors, input })
 }
 
 /// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one.
-fn largest_of_neighbours(choice: &Choice, scene: &Scene, toss: &Toss) -> anyhow::Result<Option<f64>> {
+fn largest_of_neighbours(choice: &Choice, scene: &Scene) -> anyhow::Result<Option<f64>> {
     const NEIGHBOURS: u64 = 8;
     let mut largest = 0.0_f64;
     for index in 0..NEIGHBOURS {
-        let toss = neighbour(toss, SEED, index)?;
-        let near = Scene { want: scene.want.of(toss), ..scene.clone() };
+        let near = Scene { want: scene.want.of(neighbour(toss_of(scene), SEED, index)?), ..scene.clone() };
         let Ok(answer) = choice.run(&near) else { return Ok(None) };
-        largest = largest.max(Truth::new(&toss)?.error(&near, &answer)?);
+        largest = largest.max(error(&near, &answer)?);
     }
     Ok(Some(largest))
-}
-
-struct TossScene {
-    /// Its kind: what is wanted, or `integrator` if the scene asks for one.
-    kind: &'static str,
-    scene: Scene,
-    toss: Toss,
 }
 
 /// A random toss. The coin is from the catalogue or any other; the rates are up to 60 rad/s or, in a third of the
@@ -169,10 +153,10 @@ fn neighbour(toss: &Toss, seed: u64, index: u64) -> Result<Toss, InputError> {
     Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..*toss })
 }
 
-/// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
+/// Scene number `index` of the sequence that `seed` starts, with its kind: what is wanted, or `integrator` if it asks for one. Of ten scenes three want an outcome, three cos θ, two an
 /// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
 /// 1e-2 to 1e-11.
-fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+fn toss_scene(seed: u64, index: u64) -> Result<(&'static str, Scene), InputError> {
     let mut rng = stream(seed, index);
     let toss = random_toss(&mut rng)?;
     let kinds =
@@ -193,7 +177,7 @@ fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     } else {
         Scene::new(want, decades(&mut rng, -14.7, -2.0))
     };
-    Ok(TossScene { kind, scene, toss })
+    Ok((kind, scene))
 }
 
 /// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
@@ -220,55 +204,34 @@ pub(super) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     Space::parse(coin, &texts)
 }
 
-/// The exact answer to every scene about one toss.
-struct Truth {
-    landing: Reference,
-    toss: Toss,
-}
-
-impl Truth {
-    fn new(toss: &Toss) -> Result<Self, SolveError> {
-        Ok(Self { landing: Reference::of(toss)?, toss: *toss })
-    }
-
-    /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
-    /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
-    /// most twice the scene's accuracy.
-    fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
-        let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
-        Ok(match answer {
-            Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
-                wrong(self.landing.cos_tilt_error(0.0) > 2.0 * scene.accuracy)
-            }
-            Answer::Outcome(verdict) => wrong(verdict.outcome() != self.landing.outcome()),
-            Answer::Tilt(cos_tilt) => self.landing.cos_tilt_error(*cos_tilt),
-            Answer::Attitude(state) => self.landing.attitude_error(&state.attitude),
-            Answer::Enclosed(found) => {
-                let of_attitude = self.landing.attitude_error(&found.landing().state.attitude);
-                of_attitude.max(self.landing.cos_tilt_error(found.cos_tilt()))
-            }
-            Answer::Trace(points) => self.trace_error(points)?,
-            Answer::Probability(_) => f64::INFINITY,
-        })
-    }
-
-    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, Error> {
-        let mut largest = 0.0_f64;
-        let launch = self.toss.launch;
-        for point in points {
-            // The last point is the landing, whose time is not rounded to f64.
-            let error = if point.time == launch.flight_time() {
-                self.landing.attitude_error(&point.attitude)
-            } else {
-                let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                Reference::of(&Toss { launch: until, ..self.toss })
-                    .map_err(SolveError::from)?
-                    .attitude_error(&point.attitude)
-            };
-            largest = largest.max(error);
+/// The error of an answer to a scene about a toss: that of cos θ, or the angle between attitudes (rad). The error of an outcome
+/// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at most twice
+/// the scene's accuracy.
+fn error(scene: &Scene, answer: &Answer) -> anyhow::Result<f64> {
+    let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
+    let toss = toss_of(scene);
+    let landing = Reference::of(toss)?;
+    Ok(match answer {
+        Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
+            wrong(landing.cos_tilt_error(0.0) > 2.0 * scene.accuracy)
         }
-        Ok(largest)
-    }
+        Answer::Outcome(verdict) => wrong(verdict.outcome() != landing.outcome()),
+        Answer::Tilt(cos_tilt) => landing.cos_tilt_error(*cos_tilt),
+        Answer::Attitude(state) => landing.attitude_error(&state.attitude),
+        Answer::Trace(points) => {
+            let mut largest = 0.0_f64;
+            for TracePoint { time, attitude, .. } in points {
+                // The last point is the landing, whose time is not rounded to f64.
+                let is_landing = *time == toss.launch.flight_time();
+                let time = if is_landing { toss.launch.time_of_flight() } else { TimeOfFlight::Given(*time) };
+                let until = toss.launch.with_time_of_flight(time)?;
+                largest = largest.max(Reference::of(&Toss { launch: until, ..*toss })?.attitude_error(attitude));
+            }
+            largest
+        }
+        // No scene of these is about a space or asks for a proof.
+        Answer::Enclosed(_) | Answer::Probability(_) => f64::INFINITY,
+    })
 }
 
 /// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the

@@ -88,8 +88,6 @@ pub enum Fold {
     Count,
     /// The same, divided by the number of tosses.
     Share,
-    /// The mean.
-    Mean,
     /// The median.
     Median,
 }
@@ -104,20 +102,16 @@ impl Fold {
         };
         let (cases, number) = (trials.len() as u64, trials.len() as f64);
         let sum: f64 = sizes.iter().map(|(size, _)| size).sum();
-        let figure = |measured: f64, input| Measurement::figure(subject, measured, cases, input);
         let worst = largest(&sizes);
         let (measured, claim) = match self {
             Self::Largest => (worst.map_or(f64::INFINITY, |worst| sizes[worst].0), Claim::of(trials)),
             Self::Count => (sum, Claim::NoSolver),
             Self::Share => (sum / number, Claim::NoSolver),
-            Self::Mean => {
-                let largest = worst.map_or(0.0, |worst| sizes[worst].0);
-                return figure(sum / number, format!("largest error {largest:.3e}"));
-            }
             Self::Median => {
                 sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let at = |part: usize| sizes.get(sizes.len() * part / 100).map_or(f64::NAN, |(size, _)| *size);
-                return figure(at(50), format!("95 % are below {:.0}", at(95)));
+                let input = format!("95 % are below {:.0}", at(95));
+                return Measurement::figure(subject, at(50), cases, input);
             }
         };
         let worst = worst.map(|worst| trials[worst].worst(sizes[worst].1.clone()));
@@ -325,7 +319,6 @@ mod tests {
         assert_eq!(measured(Fold::Largest, &some), (3.0, text(1), false), "the first of the largest");
         assert_eq!(measured(Fold::Count, &some), (3.0, text(1), false));
         assert_eq!(measured(Fold::Share, &some), (0.75, text(1), false));
-        assert_eq!(measured(Fold::Mean, &some).0, 0.5);
         assert_eq!(measured(Fold::Median, &some).0, 3.0);
         for fold in [Fold::Largest, Fold::Count, Fold::Share] {
             assert_eq!(measured(fold, &[Ok(1.0), failure(), Ok(2.0)]), (f64::INFINITY, text(1), true), "{fold:?}");

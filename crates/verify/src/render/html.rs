@@ -4,7 +4,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{Group, comparison, left_out, number, replay, reserve, unjudged, verdict};
+use super::words::{by_check, comparison, failing, left_out, number, replay, reserve, unjudged, verdict};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::{Row, Status};
 use crate::measure::atlas::Atlas;
@@ -56,7 +56,7 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
                 (reached(report))
                 @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
                 h2 id="checks" { "Checks" }
-                @for block in Group::checks(&report.rows) { (check(&block, report)) }
+                @for rows in by_check(&report.rows) { (check(&rows, report)) }
                 p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a \
                            limit is judged by the error that it claims." }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
@@ -197,20 +197,21 @@ fn matrix(atlas: &Atlas) -> Markup {
     }
 }
 
-fn mark(failing: usize, judged: usize) -> Markup {
-    html! { @if failing > 0 { span.fail { "✗ " } } @else if judged > 0 { span.pass { "✓ " } } @else { span.faint { "– " } } }
+fn mark(failing: usize, rows: &[&Row]) -> Markup {
+    let are_judged = rows.iter().any(|row| row.status != Status::NotJudged);
+    html! { @if failing > 0 { span.fail { "✗ " } } @else if are_judged { span.pass { "✓ " } } @else { span.faint { "– " } } }
 }
 
-fn check(block: &Group<'_>, report: &Report) -> Markup {
-    let (worst, all) = (block.worst(), block.failing() == 0);
+fn check(rows: &[&Row], report: &Report) -> Markup {
+    let (worst, failing) = (rows[0], failing(rows.iter().copied()));
     let timing = report.checks.iter().find(|timing| timing.check == worst.check);
     html! {
-        details.check open[!all] {
+        details.check open[failing > 0] {
             summary {
-                b { (mark(block.failing(), block.judged())) (worst.check) }
+                b { (mark(failing, rows)) (worst.check) }
                 " " (worst.claim) " "
                 span.faint {
-                    (block.rows.len() - block.failing()) " of " (block.rows.len()) " pass"
+                    (rows.len() - failing) " of " (rows.len()) " pass"
                     @if worst.part() > 0.0 { ", " (worst.subject) ": " (reserve(worst)) }
                     @if let Some(basis) = worst.basis { ", by " (basis.name()) }
                     @if let Some(timing) = timing { ", " (format!("{:.1} s", timing.t_wall_s)) }
@@ -218,7 +219,7 @@ fn check(block: &Group<'_>, report: &Report) -> Markup {
             }
             table {
                 tr { th { "subject" } th { "measured and limit" } th { "reserve" } th.wide { "cases" } th { "verdict" } }
-                @for row in &block.rows { (line(row)) }
+                @for row in rows { (line(row)) }
             }
         }
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
-use super::words::{Group, comparison, reserve, verdict};
+use super::words::{by_check, comparison, reserve, verdict};
 use super::{Report, diagnosis, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
@@ -19,13 +19,13 @@ const WORSE: &str = "worse than the baseline";
 
 pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
-    for block in Group::checks(&report.rows) {
-        let mut suite = TestSuite::new(block.worst().check.as_str());
-        let timing = report.checks.iter().find(|timing| timing.check == block.worst().check);
+    for rows in by_check(&report.rows) {
+        let mut suite = TestSuite::new(rows[0].check.as_str());
+        let timing = report.checks.iter().find(|timing| timing.check == rows[0].check);
         if let Some(time) = timing.and_then(|timing| Duration::try_from_secs_f64(timing.t_wall_s).ok()) {
             suite.set_time(time);
         }
-        suite.add_test_cases(block.rows.iter().map(|row| test_case(row, &report.diagnoses)));
+        suite.add_test_cases(rows.iter().map(|row| test_case(row, &report.diagnoses)));
         junit.add_test_suite(suite);
     }
     let worse = report.worse();

@@ -13,8 +13,8 @@ const LISTED: usize = 6;
 /// The paragraph on `rows`: which fail, and which pass.
 pub(crate) fn of_rows(rows: &[Row]) -> String {
     let items: Vec<Item<'_>> = rows.iter().map(|row| Item::of(row, !row.status.passes())).collect();
-    let solvers = Names::of(&items, Some(Judges::Solver), Item::solver);
-    let library = Names::of(&items, Some(Judges::Library), Item::check);
+    let solvers = Names::of(&items, Some(Judges::Solver), part(0));
+    let library = Names::of(&items, Some(Judges::Library), check);
     let of_library = |number: usize| match number {
         0 => None,
         1 => Some("1 check of the library".to_owned()),
@@ -64,22 +64,15 @@ impl<'a> Item<'a> {
     fn of(row: &'a Row, bad: bool) -> Self {
         Self { check: &row.check, subject: &row.subject, judges: row.judges, bad }
     }
+}
 
-    fn check(&self) -> Option<&'a str> {
-        Some(self.check)
-    }
+fn check<'a>(item: &Item<'a>) -> Option<&'a str> {
+    Some(item.check)
+}
 
-    fn solver(&self) -> Option<&'a str> {
-        self.subject.split('/').next()
-    }
-
-    fn scheme(&self) -> Option<&'a str> {
-        self.subject.split('/').nth(1)
-    }
-
-    fn formulation(&self) -> Option<&'a str> {
-        self.subject.split('/').nth(2)
-    }
+/// The solver (0), the scheme (1) or the formulation (2) that an item is about.
+fn part<'a>(index: usize) -> impl Fn(&Item<'a>) -> Option<&'a str> {
+    move |item| item.subject.split('/').nth(index)
 }
 
 /// What the items of solvers, of the library or (`None`) of the suite have as a name: all of them, and the bad ones.
@@ -89,9 +82,9 @@ struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    fn of(items: &[Item<'a>], judges: Option<Judges>, name: fn(&Item<'a>) -> Option<&'a str>) -> Self {
+    fn of(items: &[Item<'a>], judges: Option<Judges>, name: impl Fn(&Item<'a>) -> Option<&'a str>) -> Self {
         let of = || items.iter().filter(|item| item.judges == judges);
-        Self { all: of().filter_map(name).collect(), bad: of().filter(|item| item.bad).filter_map(name).collect() }
+        Self { all: of().filter_map(&name).collect(), bad: of().filter(|item| item.bad).filter_map(&name).collect() }
     }
 
     /// The bad ones, or `every` if there are no others.
@@ -102,17 +95,16 @@ impl<'a> Names<'a> {
 
 /// What is bad: solvers with their schemes, formulations and checks, checks of the library, and what was not measured.
 fn bad(items: &[Item<'_>]) -> String {
-    let names = |name| Names::of(items, Some(Judges::Solver), name);
-    let (solvers, schemes, checks) = (names(Item::solver), names(Item::scheme), names(Item::check));
+    let of_solvers = Some(Judges::Solver);
+    let [solvers, schemes, formulations] = [0, 1, 2].map(|index| Names::of(items, of_solvers, part(index)));
+    let checks = Names::of(items, of_solvers, check);
     let mut parts = Vec::new();
     if !solvers.bad.is_empty() {
         let after = |before, words: String| if words.is_empty() { words } else { format!(", {before} {words}") };
         // Where there is one scheme, it need not be named.
         let schemes = if schemes.all.len() > 1 { schemes.words("every scheme") } else { String::new() };
-        let is_default =
-            |item: &Item<'_>| item.bad && item.judges == Some(Judges::Solver) && item.formulation().is_none();
-        let formulation =
-            if items.iter().any(is_default) { String::new() } else { list(&names(Item::formulation).bad) };
+        let is_default = |item: &Item<'_>| item.bad && item.judges == of_solvers && part(2)(item).is_none();
+        let formulation = if items.iter().any(is_default) { String::new() } else { list(&formulations.bad) };
         let where_bad = match (checks.bad.len(), checks.all.len()) {
             (bad, all) if bad == all && all > 1 => format!("in all {all} solver checks"),
             (1, _) => format!("in one check ({})", list(&checks.bad)),
@@ -122,7 +114,7 @@ fn bad(items: &[Item<'_>]) -> String {
         parts.push(format!("{}{schemes}{formulation}, {where_bad}", solvers.words("all solvers")));
     }
     for (judges, what) in [(Some(Judges::Library), "the library, in"), (None, "not measured in time or not at all:")] {
-        let bad = Names::of(items, judges, Item::check).bad;
+        let bad = Names::of(items, judges, check).bad;
         parts.extend((!bad.is_empty()).then(|| format!("{what} {}", list(&bad))));
     }
     parts.join("; ")

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use super::words::{Group, comparison, reserve, unjudged, verdict};
+use super::words::{by_check, comparison, failing, reserve, unjudged, verdict};
 use super::{Report, diagnosis, standing, words};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
@@ -17,7 +17,7 @@ use crate::{CHECKS, Check};
 
 /// The line for a check that has just ended, with its rows and its time.
 pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
-    let failing = rows.iter().filter(|row| !row.status.passes()).count();
+    let failing = failing(rows);
     let result = if failing == 0 { "ok".to_owned() } else { format!("FAIL: {failing}") };
     format!("{:<width$} {:>7.1} s  {:>4} rows  {result}\n", timing.check, timing.t_wall_s, rows.len(), width = width())
 }
@@ -32,14 +32,14 @@ pub(crate) fn whole(found: &Report, verbose: bool) -> String {
 /// The rows: one line a check or, with `verbose`, one line a row below its claim.
 fn report(report: &Report, verbose: bool) -> String {
     let mut out = format!("\n{}{}\n", diagnosis::paragraph(report), report.pattern);
-    let blocks = Group::checks(&report.rows);
+    let checks = by_check(&report.rows);
     if !verbose {
         let _ = writeln!(out, "\n{:<width$}  rows  worst row", "check", width = width());
     }
-    for block in &blocks {
-        out += &if verbose { every_row(block) } else { summary(block) };
+    for rows in &checks {
+        out += &if verbose { every_row(rows) } else { summary(rows) };
     }
-    let failing = blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes());
+    let failing = checks.into_iter().flatten().filter(|row| !row.status.passes());
     let (shown, same) = diagnosis::folded(report, failing.collect());
     out += &shown.into_iter().map(in_full).collect::<String>();
     out + &same
@@ -47,28 +47,28 @@ fn report(report: &Report, verbose: bool) -> String {
 
 /// Whether the run passes, and how many rows do.
 fn passing(rows: &[Row]) -> String {
-    let failing = rows.iter().filter(|row| !row.status.passes()).count();
+    let failing = failing(rows);
     let verdict = if failing == 0 { "PASS" } else { "FAIL" };
     format!("\n{verdict}: {} of {} rows pass{}\n", rows.len() - failing, rows.len(), remarks(rows))
 }
 
 /// How many rows a check has, and the one that is the furthest above its limit or the closest to it.
-fn summary(block: &Group<'_>) -> String {
-    let (worst, failing) = (block.worst(), block.failing());
-    let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", block.rows.len()) };
+fn summary(rows: &[&Row]) -> String {
+    let (worst, failing) = (rows[0], failing(rows.iter().copied()));
+    let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", rows.len()) };
     // Where nothing deviates, no subject is closer to its limit than another.
     let subject = if worst.part() == 0.0 && failing == 0 { "" } else { worst.subject.as_str() };
     let closest = format!("{:<18}  {subject}", reserve(worst));
-    format!("{:<width$}  {:>4}  {}{status}\n", worst.check, block.rows.len(), closest.trim_end(), width = width())
+    format!("{:<width$}  {:>4}  {}{status}\n", worst.check, rows.len(), closest.trim_end(), width = width())
 }
 
 /// Every row of a check, below its claim.
-fn every_row(block: &Group<'_>) -> String {
-    let width = block.rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
-    let first = block.worst();
+fn every_row(rows: &[&Row]) -> String {
+    let width = rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
+    let first = rows[0];
     let basis = first.basis.map_or("", crate::measure::check::Basis::name);
     let mut out = format!("\n{}  [{basis}]\n  {}\n", first.check, first.claim);
-    for row in &block.rows {
+    for row in rows {
         let _ = writeln!(out, "    {}", line(row, width));
     }
     out

@@ -93,42 +93,25 @@ pub(super) fn worst_first(a: &Row, b: &Row) -> Ordering {
     a.status.passes().cmp(&b.status.passes()).then(b.part().total_cmp(&a.part()))
 }
 
-/// The rows of one check, the worst first.
-pub(super) struct Group<'a> {
-    /// The rows; there is at least one.
-    pub(super) rows: Vec<&'a Row>,
+/// The rows of each check, the worst check and the worst row of each first. A check has one row at least.
+pub(super) fn by_check(rows: &[Row]) -> Vec<Vec<&Row>> {
+    let mut checks: Vec<Vec<&Row>> = Vec::new();
+    for row in rows {
+        match checks.iter_mut().find(|rows| rows[0].check == row.check) {
+            Some(rows) => rows.push(row),
+            None => checks.push(vec![row]),
+        }
+    }
+    for rows in &mut checks {
+        rows.sort_by(|a, b| worst_first(a, b));
+    }
+    checks.sort_by(|a, b| worst_first(a[0], b[0]));
+    checks
 }
 
-impl<'a> Group<'a> {
-    /// The checks of `rows`, the worst first.
-    pub(super) fn checks(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Self> {
-        let mut groups: Vec<Self> = Vec::new();
-        for row in rows {
-            match groups.iter_mut().find(|group| group.worst().check == row.check) {
-                Some(group) => group.rows.push(row),
-                None => groups.push(Self { rows: vec![row] }),
-            }
-        }
-        for group in &mut groups {
-            group.rows.sort_by(|a, b| worst_first(a, b));
-        }
-        groups.sort_by(|a, b| worst_first(a.worst(), b.worst()));
-        groups
-    }
-
-    /// The row that is the furthest above its limit, or else the closest to it.
-    pub(super) fn worst(&self) -> &'a Row {
-        self.rows[0]
-    }
-
-    pub(super) fn failing(&self) -> usize {
-        self.rows.iter().filter(|row| !row.status.passes()).count()
-    }
-
-    /// The number of rows with a verdict.
-    pub(super) fn judged(&self) -> usize {
-        self.rows.iter().filter(|row| row.status != Status::NotJudged).count()
-    }
+/// The number of rows that fail.
+pub(super) fn failing<'a>(rows: impl IntoIterator<Item = &'a Row>) -> usize {
+    rows.into_iter().filter(|row| !row.status.passes()).count()
 }
 
 /// One line per entry that moved, the worse ones first and with the command that repeats their row; empty if nothing did.
@@ -148,21 +131,16 @@ pub(crate) fn moves(all: &[Move], rows: &[Row]) -> String {
         // What is new comes by the hundred, when a baseline is begun.
         let shown = if direction == Direction::New { 10 } else { moved.len() };
         for moved in moved.iter().take(shown) {
-            out += &line_of_move(moved);
-            out += &repeat(moved, rows);
+            out += &format!("  {} / {}: {}\n", moved.check, moved.subject, change(moved));
+            if direction == Direction::Worse {
+                out += &format!("    repeat with: {}\n", replay(moved, rows));
+            }
         }
         if moved.len() > shown {
             out += &format!("  and {} more\n", moved.len() - shown);
         }
     }
     out
-}
-
-fn repeat(moved: &Move, rows: &[Row]) -> String {
-    if moved.direction != Direction::Worse {
-        return String::new();
-    }
-    format!("    repeat with: {}\n", replay(moved, rows))
 }
 
 /// The command that repeats what moved: its row's, or else that of the whole check.
@@ -186,10 +164,6 @@ pub(super) fn change(moved: &Move) -> String {
         ratio => format!(", {ratio:.3} times"),
     });
     format!("{} {} → {}{ratio}", moved.what, number(moved.before), number(moved.now))
-}
-
-fn line_of_move(moved: &Move) -> String {
-    format!("  {} / {}: {}\n", moved.check, moved.subject, change(moved))
 }
 
 /// One line for each reason; empty if no check was left out.
@@ -225,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_and_their_rows_are_sorted_by_measured_over_limit() {
+    fn checks_and_their_rows_are_sorted_by_measured_over_limit() {
         let rows = [
             row("near", "a", 0.9, 1.0),
             row("far", "a", 0.1, 1.0),
@@ -234,10 +208,10 @@ mod tests {
             row("nothing", "a", 0.0, 0.0),
             row("over nothing", "a", 1.0, 0.0),
         ];
-        let checks = Group::checks(&rows);
-        let order: Vec<&str> = checks.iter().map(|check| &*check.worst().check).collect();
+        let checks = by_check(&rows);
+        let order: Vec<&str> = checks.iter().map(|rows| &*rows[0].check).collect();
         assert_eq!(order, ["over nothing", "over", "near", "far", "nothing"]);
-        assert_eq!(checks[1].worst().subject, "b");
-        assert_eq!(checks[1].failing(), 1);
+        assert_eq!(checks[1][0].subject, "b");
+        assert_eq!(failing(checks[1].iter().copied()), 1);
     }
 }

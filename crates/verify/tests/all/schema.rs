@@ -24,98 +24,62 @@ fn schema() -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("the schema")).expect("JSON")
 }
 
-/// Compares values with the schema `root`.
-struct Validator<'a> {
-    root: &'a Value,
-    /// Where values differ from the schema.
-    errors: Vec<String>,
-    /// The definitions that a value was compared with.
-    used: BTreeSet<String>,
-}
-
-impl Validator<'_> {
-    fn errors(root: &Value, value: &Value) -> (Vec<String>, BTreeSet<String>) {
-        let mut validator = Validator { root, errors: Vec::new(), used: BTreeSet::new() };
-        validator.compare(root, value, "");
-        (validator.errors, validator.used)
-    }
-
-    fn compare(&mut self, schema: &Value, value: &Value, at: &str) {
-        for (keyword, wanted) in schema.as_object().expect("a schema is an object") {
-            let holds = match keyword.as_str() {
-                "$schema" | "title" | "description" | "$defs" | "required" | "additionalProperties" => true,
-                "$ref" => self.definition(wanted, value, at),
-                "type" => is_of_type(wanted, value),
-                "const" => wanted == value,
-                "enum" => wanted.as_array().is_some_and(|all| all.contains(value)),
-                "minimum" => value.as_f64() >= wanted.as_f64() || value.is_null(),
-                "minItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) >= wanted.as_u64()),
-                "maxItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) <= wanted.as_u64()),
-                "properties" => self.properties(schema, wanted, value, at),
-                "items" => self.items(value, at, |_| Some(wanted)),
-                "prefixItems" => self.items(value, at, |index| wanted.get(index)),
-                "oneOf" => self.one_of(wanted, value, at),
-                unknown => panic!("the keyword {unknown} is not known to this validator"),
-            };
-            if !holds {
-                let shown: String = value.to_string().chars().take(80).collect();
-                self.errors.push(format!("{at}: {shown} does not satisfy {keyword}"));
+/// Where `value` differs from `schema`, which is a part of `root`; the definitions that it is compared with are `used`.
+fn differences(root: &Value, schema: &Value, value: &Value, at: &str, used: &mut BTreeSet<String>) -> Vec<String> {
+    let mut found = Vec::new();
+    for (keyword, wanted) in schema.as_object().expect("a schema is an object") {
+        let holds = match keyword.as_str() {
+            "$schema" | "title" | "description" | "$defs" | "required" | "additionalProperties" => true,
+            "$ref" => {
+                let name = wanted.as_str().and_then(|text| text.strip_prefix("#/$defs/")).expect("a definition's name");
+                used.insert(name.to_owned());
+                found.extend(differences(root, &root["$defs"][name], value, at, used));
+                true
             }
-        }
-    }
-
-    fn definition(&mut self, reference: &Value, value: &Value, at: &str) -> bool {
-        let name = reference.as_str().and_then(|text| text.strip_prefix("#/$defs/")).expect("a definition's name");
-        self.used.insert(name.to_owned());
-        let root = self.root;
-        self.compare(&root["$defs"][name], value, at);
-        true
-    }
-
-    fn properties(&mut self, schema: &Value, properties: &Value, value: &Value, at: &str) -> bool {
-        let (Some(known), Some(found)) = (properties.as_object(), value.as_object()) else { return false };
-        let required = schema["required"].as_array().expect("a list of required keys");
-        for key in required.iter().filter_map(Value::as_str).filter(|key| !found.contains_key(*key)) {
-            self.errors.push(format!("{at}: {key} is missing"));
-        }
-        for (key, value) in found {
-            match known.get(key) {
-                Some(schema) => self.compare(schema, value, &format!("{at}/{key}")),
-                None => self.errors.push(format!("{at}: {key} is not in the schema")),
+            "type" => is_of_type(wanted, value),
+            "const" => wanted == value,
+            "enum" => wanted.as_array().is_some_and(|all| all.contains(value)),
+            "minimum" => value.as_f64() >= wanted.as_f64() || value.is_null(),
+            "minItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) >= wanted.as_u64()),
+            "maxItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) <= wanted.as_u64()),
+            "properties" => {
+                for (key, value) in value.as_object().into_iter().flatten() {
+                    found.extend(match wanted.get(key) {
+                        Some(schema) => differences(root, schema, value, &format!("{at}/{key}"), used),
+                        None => vec![format!("{at}: {key} is not in the schema")],
+                    });
+                }
+                let required = schema["required"].as_array().expect("a list of required keys");
+                required.iter().all(|key| key.as_str().is_some_and(|key| value.get(key).is_some()))
             }
-        }
-        true
-    }
-
-    fn items<'s>(&mut self, value: &Value, at: &str, schema: impl Fn(usize) -> Option<&'s Value>) -> bool {
-        let Some(all) = value.as_array() else { return value.is_null() };
-        for (index, item) in all.iter().enumerate() {
-            match schema(index) {
-                Some(schema) => self.compare(schema, item, &format!("{at}[]")),
-                None => self.errors.push(format!("{at}: too many items")),
+            "items" | "prefixItems" => {
+                for (index, item) in value.as_array().into_iter().flatten().enumerate() {
+                    let schema = if keyword == "items" { wanted } else { &wanted[index] };
+                    found.extend(differences(root, schema, item, &format!("{at}[]"), used));
+                }
+                value.is_array() || value.is_null()
             }
+            // Exactly one of the schemas. If none fits, the differences are those from the last, which is not `null`.
+            "oneOf" => {
+                let compared = wanted.as_array().into_iter().flatten().map(|schema| {
+                    let mut used = BTreeSet::new();
+                    (differences(root, schema, value, at, &mut used), used)
+                });
+                let (mut fitting, mut others): (Vec<_>, Vec<_>) = compared.partition(|(found, _)| found.is_empty());
+                let is_at_most_one = fitting.len() <= 1;
+                let (more, of_it) = fitting.pop().or_else(|| others.pop()).expect("a schema");
+                found.extend(more);
+                used.extend(of_it);
+                is_at_most_one
+            }
+            unknown => panic!("the keyword {unknown} is not known to this validator"),
+        };
+        if !holds {
+            let shown: String = value.to_string().chars().take(80).collect();
+            found.push(format!("{at}: {shown} does not satisfy {keyword}"));
         }
-        true
     }
-
-    /// Exactly one of the schemas has to fit. If none does, the errors are those of the last, which is not `null`.
-    fn one_of(&mut self, schemas: &Value, value: &Value, at: &str) -> bool {
-        let all = schemas.as_array().expect("a list");
-        let mut tried: Vec<Self> = all
-            .iter()
-            .map(|schema| {
-                let mut one = Validator { root: self.root, errors: Vec::new(), used: BTreeSet::new() };
-                one.compare(schema, value, at);
-                one
-            })
-            .collect();
-        let fitting: Vec<usize> = (0..tried.len()).filter(|index| tried[*index].errors.is_empty()).collect();
-        let chosen = fitting.first().copied().unwrap_or(tried.len() - 1);
-        let Self { errors, used, .. } = tried.swap_remove(chosen);
-        self.errors.extend(errors);
-        self.used.extend(used);
-        fitting.len() <= 1
-    }
+    found
 }
 
 fn is_of_type(wanted: &Value, value: &Value) -> bool {
@@ -205,7 +169,8 @@ fn each_object(value: &mut Value, change: &mut impl FnMut(&mut Map<String, Value
 #[test]
 fn a_report_and_its_schema_have_the_same_keys_in_both_directions() {
     let (root, report) = (schema(), report());
-    let (errors, used) = Validator::errors(&root, &report);
+    let mut used = BTreeSet::new();
+    let errors = differences(&root, &root, &report, "", &mut used);
     assert!(errors.is_empty(), "{:#?}", &errors[..errors.len().min(10)]);
     let defined: BTreeSet<String> = root["$defs"].as_object().expect("definitions").keys().cloned().collect();
     assert_eq!(used, defined, "every definition describes something");
@@ -226,7 +191,8 @@ fn a_report_and_its_schema_have_the_same_keys_in_both_directions() {
                 }
                 index += 1;
             });
-            assert!(!Validator::errors(&root, &report).0.is_empty(), "object {broken}, {fault}");
+            let found = differences(&root, &root, &report, "", &mut BTreeSet::new());
+            assert!(!found.is_empty(), "object {broken}, {fault}");
         }
     }
 }

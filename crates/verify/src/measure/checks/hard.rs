@@ -12,7 +12,7 @@ use super::landings::{part_of_allowed, part_of_estimate};
 use super::proofs::share;
 use crate::measure::adversary::{self, Answers};
 use crate::measure::check::Basis::CrossMethod;
-use crate::measure::check::Fold::{Count, Largest, Mean};
+use crate::measure::check::Fold::{Count, Largest, Share};
 use crate::measure::check::Measure::{Own, Tosses};
 use crate::measure::check::{Allowed, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
@@ -54,7 +54,7 @@ pub(super) const CHECKS: &[Check] = &[
          reference, also within 3 ulp of a time at which the outcome changes. Measured: the number of tosses with \
          another outcome, not counting those that stay undecided; one is enough to fail.",
     ),
-    Check::of_library("hard-integrated-undecided", Tosses(undecided, Mean)).up_to(0.5, "1").claims(
+    Check::of_library("hard-integrated-undecided", Tosses(undecided, Share)).up_to(0.5, "1").claims(
         "An integration proves the outcome of nearly all bodies of eight families without a simple case that don't \
          land next to a change of it. Measured: the share of tosses that stay undecided.",
     ),

@@ -4,14 +4,13 @@
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Scene, Toss, Want};
+use toss::{Scene, Want};
 
-use crate::measure::case;
 use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::hostile;
-use crate::measure::planner::{Errors, Planned, solve_hostile};
+use crate::measure::planner::{Errors, Planned, solve};
 use crate::measure::tosses::one;
 use crate::measure::trial::Measurement;
 
@@ -85,7 +84,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
         "attitude" => Want::Attitude(toss),
         _ => Want::Trace { toss, points: rng.random_range(2..8) },
     };
-    solve_asked(kind, want, &toss, &["gamma", "euler", "quaternion"], &mut rng)
+    solve_asked(kind, want, &["gamma", "euler", "quaternion"], &mut rng)
 }
 
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
@@ -93,22 +92,13 @@ fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let (mut rng, toss) = hostile::planned_body(index);
     let Some(toss) = toss.filter(|toss| toss.coin().is_none()) else { return Ok(None) };
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
-    solve_asked(BODIES, want, &toss, &["euler", "quaternion"], &mut rng).map(Some)
+    solve_asked(BODIES, want, &["euler", "quaternion"], &mut rng).map(Some)
 }
 
-/// Plans and answers what is wanted of `toss`, by one of the solvers with any scheme and accuracy.
-fn solve_asked(
-    kind: &'static str,
-    want: Want,
-    toss: &Toss,
-    solvers: &[&str],
-    rng: &mut ChaCha8Rng,
-) -> anyhow::Result<Planned> {
+/// Plans and answers what is wanted, by one of the solvers with any scheme and accuracy.
+fn solve_asked(kind: &'static str, want: Want, solvers: &[&str], rng: &mut ChaCha8Rng) -> anyhow::Result<Planned> {
     let solver = solvers[rng.random_range(0..solvers.len())];
     let scheme = one(rng, [None, Some("dop853"), Some("dopri5")]);
     let accuracy = 10f64.powf(rng.random_range(-11.0..-2.0));
-    let scene = Scene::new(want, accuracy).by(solver, scheme);
-    let (wanted, scheme) = (scene.want.kind().name(), scheme.unwrap_or("any"));
-    let input = format!("{} # {wanted} to {accuracy:e} by {solver} {scheme}", case::text(toss));
-    solve_hostile(kind, &scene, toss, input)
+    solve(kind, &Scene::new(want, accuracy).by(solver, scheme), false)
 }

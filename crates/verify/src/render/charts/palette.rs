@@ -1,7 +1,7 @@
 //! Chooses how solvers are drawn, alike in all charts: the colour comes from the registry or, for a solver without one,
 //! from a list of colours that none of the others has; the form of points and lines comes from the scheme.
 
-use chart::{LINE_WIDTH, Marker, Series};
+use chart::{Marker, Series};
 use plotters::style::RGBColor;
 use toss::SolverEntry;
 
@@ -43,14 +43,14 @@ impl<'a> Palette<'a> {
     }
 
     /// The line of a subject, in the colour of its solver and with the form of its scheme.
-    pub(super) fn line(&self, subject: &str, label: String, points: Vec<(f64, f64)>, failures: Vec<f64>) -> Series {
+    pub(super) fn line(&self, subject: &str, label: &str, points: Vec<(f64, f64)>, failures: Vec<f64>) -> Series {
         let (marker, dashed) = match subject.split('/').nth(1) {
             Some("dopri5") => (Marker::Triangle, false),
             Some("rk4") => (Marker::Ring, true),
             Some("taylor") => (Marker::Square, false),
             _ => (Marker::Disc, false),
         };
-        Series { label, colour: self.colour(subject), width: LINE_WIDTH, dashed, marker, points, failures }
+        Series { dashed, failures, ..Series::new(label, self.colour(subject), marker, points) }
     }
 }
 

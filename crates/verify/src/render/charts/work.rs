@@ -3,8 +3,7 @@
 //! of each tolerance, and its length is what the proof costs in digits.
 
 use chart::{
-    Axis, BLUE, ChartError, Drawn, EndLabel, LINE_WIDTH, Marker, Panel, Series, VERMILION, centred, end_labels,
-    log_log, svg,
+    Axis, BLUE, ChartError, Drawn, EndLabel, Marker, Panel, Series, VERMILION, centred, end_labels, lines, svg,
 };
 use plotters::style::RGBColor;
 
@@ -78,21 +77,21 @@ impl<'a> Drawing<'a> {
 
     /// Draws the lines with their names beside them.
     fn panel(&self, panel: &Panel<'_>, (label, work): (&str, Work)) -> Drawn {
-        let mut lines = vec![self.front(work)];
-        lines.extend(self.lines(work));
-        let y = Axis::logarithmic(label, work_range(lines.iter()));
-        let mut labels = log_log(panel, "", (&error_axis(), &y), &lines, RIGHT)?;
+        let mut drawn = vec![self.front(work)];
+        drawn.extend(self.lines(work));
+        let y = Axis::logarithmic(label, work_range(drawn.iter()));
+        let mut labels = lines(panel, "", (&error_axis(), &y), &drawn, RIGHT)?;
         let (width, height) = panel.dim_in_pixel();
         // A closed form calls no right-hand side, so it is below every axis.
         let bottom = i32::try_from(height).unwrap_or(0) - 110;
         let is_below = |line: &&Series| line.points.is_empty() && line.failures.is_empty();
         let below =
             |line: &Series| EndLabel { y: bottom, text: format!("{}: 0 calls", line.label), colour: line.colour };
-        labels.extend(lines[1..].iter().filter(is_below).map(below));
+        labels.extend(drawn[1..].iter().filter(is_below).map(below));
         // A solver that fails at every setting has no line that could carry its name.
         let fails = |line: &&Series| line.points.is_empty() && !line.failures.is_empty();
         let above = |line: &Series| EndLabel { y: TOP, text: format!("{}: fails", line.label), colour: line.colour };
-        labels.extend(lines[1..].iter().filter(fails).map(above));
+        labels.extend(drawn[1..].iter().filter(fails).map(above));
         end_labels(panel, i32::try_from(width - RIGHT).unwrap_or(0) + 16, labels)
     }
 
@@ -108,7 +107,7 @@ impl<'a> Drawing<'a> {
         let points = samples.iter().filter_map(|sample| self.point(sample, work)).collect();
         // A failed run has no error, so it is drawn over the finest one.
         let failures = samples.iter().filter(|sample| sample.failure.is_some()).map(|_| ERRORS.end).collect();
-        self.palette.line(subject, subject.to_owned(), points, failures)
+        self.palette.line(subject, subject, points, failures)
     }
 
     /// The error and the work per launch of a sample.
@@ -128,9 +127,7 @@ impl<'a> Drawing<'a> {
                 points.push(run);
             }
         }
-        let label = String::new();
-        let failures = Vec::new();
-        Series { label, colour: LIGHT, width: 16, dashed: false, marker: Marker::None, points, failures }
+        Series { width: 16, ..Series::new("", LIGHT, Marker::None, points) }
     }
 }
 
@@ -154,18 +151,15 @@ fn panel_of_proofs(panel: &Panel<'_>, title: &str, proofs: &[Proof]) -> Drawn {
         .fold((f64::INFINITY, 0.0_f64), |(least, most), proof| (least.min(proof.calls), most.max(proof.calls)));
     let x = Axis::logarithmic("attitude's error and bound [rad]", 10.0..1e-17);
     let y = Axis::logarithmic("calls of the right-hand side per launch", 0.8 * least..1.25 * most);
-    let line = |label: &str, colour, (width, marker), points| {
-        let (label, failures) = (label.to_owned(), Vec::new());
-        Series { label, colour, width, dashed: false, marker, points, failures }
-    };
     let gap = |proof: &Proof| {
-        line("", LIGHT, (2, Marker::None), vec![(proof.bound, proof.calls), (proof.error, proof.calls)])
+        let ends = vec![(proof.bound, proof.calls), (proof.error, proof.calls)];
+        Series { width: 2, ..Series::new("", LIGHT, Marker::None, ends) }
     };
     let of = |value: fn(&Proof) -> f64| proofs.iter().map(|proof| (value(proof), proof.calls)).collect::<Vec<_>>();
-    let mut lines: Vec<Series> = proofs.iter().map(gap).collect();
-    lines.push(line("proven bound", VERMILION, (LINE_WIDTH, Marker::Disc), of(|proof| proof.bound)));
-    lines.push(line("error", BLUE, (LINE_WIDTH, Marker::Square), of(|proof| proof.error)));
-    let labels = log_log(panel, title, (&x, &y), &lines, PROOFS_RIGHT)?;
+    let mut drawn: Vec<Series> = proofs.iter().map(gap).collect();
+    drawn.push(Series::new("proven bound", VERMILION, Marker::Disc, of(|proof| proof.bound)));
+    drawn.push(Series::new("error", BLUE, Marker::Square, of(|proof| proof.error)));
+    let labels = lines(panel, title, (&x, &y), &drawn, PROOFS_RIGHT)?;
     end_labels(panel, i32::try_from(panel.dim_in_pixel().0 - PROOFS_RIGHT).unwrap_or(0) + 16, labels)
 }
 

@@ -1,12 +1,9 @@
-//! Draws lines over two logarithmic axes, as errors and work need them. Runs that failed are crosses at the upper edge.
+//! Draws lines over two axes, as errors and work need them. Runs that failed are crosses at the upper edge.
 
 use plotters::prelude::*;
 
 use crate::frame::{Axis, Frame, frame, pixel};
 use crate::{Drawn, EndLabel, Panel};
-
-/// Width of a line (pixels), unless it has a reason to differ.
-pub const LINE_WIDTH: u32 = 4;
 
 /// How the points of a series are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,9 +39,16 @@ pub struct Series {
     pub failures: Vec<f64>,
 }
 
+impl Series {
+    /// A line of the usual width, without failures.
+    pub fn new(label: &str, colour: RGBColor, marker: Marker, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.to_owned(), colour, width: 4, dashed: false, marker, points, failures: Vec::new() }
+    }
+}
+
 /// Draws `series` over the axes `x` and `y` on `panel`, and leaves `right` pixels free beside them. Returns a label for each
 /// line that has a name and a point, at the height of its last.
-pub fn log_log(
+pub fn lines(
     panel: &Panel<'_>,
     title: &str,
     (x, y): (&Axis, &Axis),

@@ -1,9 +1,8 @@
 //! Draws the running probability of methods A (a grid) and B (random launches) against the number of launches, which is the
-//! paper's Fig. 4. The command line and the report of the verification share it.
+//! paper's Fig. 4.
 
+use chart::{Axis, BLUE, ChartError, EndLabel, SIZE, VERMILION, end_labels, frame, svg};
 use plotters::prelude::*;
-
-use crate::{Axis, BLUE, ChartError, EndLabel, SIZE, VERMILION, end_labels, frame, svg};
 
 const GRID: RGBColor = VERMILION;
 const RANDOM: RGBColor = BLUE;
@@ -11,10 +10,7 @@ const RANDOM: RGBColor = BLUE;
 /// The chart as SVG, whose title ends with what the launches are `of`. There is at least one step. Each is a number of launches,
 /// the share of heads among so many launches of the grid (A), the share among so many random launches (B), and the ends of B's
 /// interval.
-///
-/// # Errors
-/// [`ChartError`] if it can't be drawn.
-pub fn running(of: &str, steps: &[[f64; 5]]) -> Result<String, ChartError> {
+pub(crate) fn running(of: &str, steps: &[[f64; 5]]) -> Result<String, ChartError> {
     let &[launches, last_grid, last_random, ..] = steps.last().ok_or(ChartError("no steps".to_owned()))?;
     let values = || steps.iter().flat_map(|step| [step[1], step[2]]);
     let (lowest, highest) = values().fold((1.0_f64, 0.0_f64), |(lo, hi), p| (lo.min(p), hi.max(p)));
