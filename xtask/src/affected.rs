@@ -83,9 +83,9 @@ const PARTS: [Part; 11] = [
     ),
     part(
         "python",
-        &["unfair-toss-python", "unfair-toss"],
+        &["unfair-toss-python", "unfair-toss", "verify"],
         // Their lines are run by pytest, and the recipes' notebooks lie beside the tests.
-        &["bindings/python/", "README.md", "docs/guide/python.md"],
+        &["bindings/", "README.md", "docs/guide/python.md"],
     ),
     part("web", &["web", "unfair-toss", "xtask"], &["web/", "docs/page.png"]),
     // What computes. The command line that prints it adds nothing that a processor could change.
