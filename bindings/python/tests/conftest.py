@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sysconfig
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -41,10 +42,16 @@ def program() -> str:
 
 
 @pytest.fixture(scope="session")
-def suite() -> str:
-    """The program of `verify`, as its wheel installs it."""
+def suite(tmp_path_factory) -> Iterator[str]:
+    """The program of `verify`, as its wheel installs it; or else as cargo builds it, on the PATH under the same name."""
     name = "unfair-toss-verify"
-    return shutil.which(name, path=sysconfig.get_path("scripts")) or built("verify", shutil.which(name))
+    installed = shutil.which(name, path=sysconfig.get_path("scripts"))
+    with pytest.MonkeyPatch.context() as patch:
+        if installed is None:
+            folder = tmp_path_factory.mktemp("programs")
+            (folder / name).symlink_to(built("verify", shutil.which(name)))
+            patch.setenv("PATH", str(folder), prepend=os.pathsep)
+        yield installed or str(folder / name)
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,6 @@
 """The package: fast to import, fast to run, documented and typed, and its README's lines run."""
 
 import inspect
-import os
 import pickle
 import re
 import subprocess
@@ -20,13 +19,10 @@ def python_blocks(page: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md", "docs/guide/python.md"])
-def test_the_lines_of_the_readme_run(page, request, monkeypatch, tmp_path):
+def test_the_lines_of_the_readme_run(page, suite):
     blocks = python_blocks(ROOT / page)
     assert blocks
     for block in blocks:
-        if "ut.verify(" in block:
-            (tmp_path / "unfair-toss-verify").symlink_to(request.getfixturevalue("suite"))
-            monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
         exec(compile(block, page, "exec"), {})
 
 

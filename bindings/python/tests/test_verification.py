@@ -145,7 +145,7 @@ def test_rotations_and_the_context_of_the_caller(suite):
         ({"answer_seconds": -1}, "answer_seconds", "expected 0.001 to 86400 s"),
         ({"total_seconds": float("nan")}, "total_seconds", "expected 0.001 to 86400 s"),
         ({"time_factor": 0}, "time_factor", "the time factor must be finite and above 0"),
-        ({"deep": True}, "quick", "cannot be used with"),
+        ({"deep": True}, "deep", "contradict each other"),
         ({"columns": 1}, "columns", "expected True or False"),
         ({"folder": 1}, "folder", "expected a path"),
         ({"program": 1}, "program", "expected a path"),

@@ -76,7 +76,7 @@ def report_on(
 def _found(program: str | os.PathLike[str] | None) -> str:
     """The path of the program: the one that is given, or that of this environment, or of the PATH."""
     try:
-        name = _NAME if program is None else os.fspath(program)
+        name = _NAME if program is None else os.fspath(Path(program))
         places = (sysconfig.get_path("scripts"), None) if program is None else (None,)
         found = next(filter(None, (shutil.which(name, path=place) for place in places)), None)
     except (TypeError, ValueError):

@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable
 from typing import Any
 
+from ._native import numbers
+from .errors import MalformedError
 from .given import truth, wrong
 from .tables import Verification
 
@@ -78,7 +80,29 @@ def verify(
     if not callable(f):
         raise wrong("f", f, "a function")
     options = [f"--{name}" for name, is_set in (("quick", quick), ("deep", deep), ("bodies", bodies)) if truth(name, is_set)]
-    values = {"only": only, "claim": claim, "time-factor": time_factor, "answer-seconds": answer_seconds, "total-seconds": total_seconds}
-    options += [f"--{name}={value}" for name, value in values.items() if value is not None]
+    if quick and deep:
+        raise MalformedError("quick and deep contradict each other", field="deep", valid="either quick or deep")
+    for name, value in (("only", only), ("claim", claim)):
+        options += [] if value is None else [f"--{name}={_text(name, value)}"]
+    for name, seconds in (("answer_seconds", answer_seconds), ("total_seconds", total_seconds), ("time_factor", time_factor)):
+        options += [] if seconds is None else [f"--{name.replace('_', '-')}={_number(name, seconds)!r}"]
     report, diagnosis = report_on(f, truth("columns", columns), options, folder, program)
     return Verification._of_report(report, diagnosis)
+
+
+def _text(field: str, value: object) -> str:
+    """The text of an option, or that of a number."""
+    if not isinstance(value, str):
+        if field == "only":
+            raise wrong(field, value, "the name of a check")
+        return repr(_number(field, value))
+    if not value.isprintable() or not value:
+        raise MalformedError(f"{field} = {value!r}: expected a text that can be printed", field=field, valid="a text")
+    return value
+
+
+def _number(field: str, value: Any) -> float:
+    given = numbers(field, value)
+    if given.size != 1:
+        raise MalformedError(f"{field} has {given.size} numbers: expected one", field=field, valid="a number")
+    return float(given.reshape(-1)[0])
