@@ -85,8 +85,16 @@ const PARTS: [Part; 11] = [
     part(
         "python",
         &["unfair-toss-python", "unfair-toss"],
-        // Their lines are run by pytest, and the recipes' notebooks lie beside the tests.
-        &["bindings/python/", "README.md", "docs/guide/python.md"],
+        &[
+            // Their lines are run by pytest, and the recipes' notebooks lie beside the tests.
+            "bindings/",
+            "README.md",
+            "docs/guide/python.md",
+            // How `unfair_toss.verify` asks the program, and what it reads of its report.
+            "crates/verify/src/commands/",
+            "crates/verify/src/process/",
+            "crates/verify/src/render/report.rs",
+        ],
     ),
     part("web", &["web", "unfair-toss", "xtask"], &["web/", "docs/page.png"]),
     // What computes. The command line that prints it adds nothing that a processor could change.
@@ -277,6 +285,8 @@ mod tests {
         let manifest = [numerical.as_slice(), &["packages"]].concat();
         assert_eq!(parts(&["crates/numerics/Cargo.toml"]), always_and(&manifest));
         assert_eq!(parts(&["crates/verify/src/main.rs"]), always_and(&["instructions", "contestants"]));
+        let asked = ["crates/verify/src/process/protocol.rs"];
+        assert_eq!(parts(&asked), always_and(&["instructions", "contestants", "python"]));
         assert_eq!(parts(&["crates/cli/src/main.rs"]), always_and(&["fuzz", "python", "web"]));
         assert_eq!(parts(&["web/page/main.js"]), always_and(&["web"]));
         assert_eq!(parts(&["bindings/python/tests/test_toss.py", "docs/json.md"]), always_and(&["python"]));

@@ -10,8 +10,9 @@ use ::toss::{
     Verdict, certify,
 };
 use dynamics::Thrown;
+use dynamics::coin::NO_COIN;
 use dynamics::error::require;
-use dynamics::precession::rate_of_precession;
+use dynamics::precession::rates_of_precession;
 use dynamics::thrown::Field;
 use exact::STAGES;
 use exact::batch::varying::{Attitudes, Coins, Column, Flights, PROVEN_ABOVE, Varying};
@@ -220,17 +221,13 @@ impl Launches<'_> {
     /// The launches up to the last one of `part` with rates in place of the turn and ψ, how many of that part have one, and what
     /// the next one fails by. What is before `part` is left out.
     fn with_rates(&self, part: Range<usize>) -> (Launches<'_>, usize, Option<Failure>) {
-        let (mut rates, mut failure) = ([vec![], vec![], vec![]], None);
-        for index in part.clone() {
-            match self.precession(index) {
-                Ok(found) => rates.iter_mut().zip(found).for_each(|(column, rate)| column.push(rate)),
-                Err(error) => {
-                    failure = Some(error.at(self.first + index as u64));
-                    break;
-                }
-            }
-        }
-        let known = rates[0].len();
+        let ratios = self.ratios(part.clone());
+        let [turns, psis, _] = self.rates().map(|column| &column[part.clone()][..ratios.len()]);
+        let mut rates = [(); 3].map(|()| vec![0.0; ratios.len()]);
+        let [x, _, z] = &mut rates;
+        let known = rates_of_precession(&ratios, turns, psis, [x, z]).unwrap_or(ratios.len());
+        rates.iter_mut().for_each(|column| column.truncate(known));
+        let failure = (known < part.len()).then(|| self.no_rate(part.start + known));
         let others = self.columns[3..].iter().map(|column| Cow::Borrowed(&column[part.start..part.start + known]));
         let columns = rates.into_iter().map(Cow::Owned).chain(others).collect();
         let first = self.first + part.start as u64;
@@ -238,17 +235,32 @@ impl Launches<'_> {
         (Launches { of: self.of.clone(), columns, precesses: false, first, stop }, known, failure)
     }
 
-    /// The rate of launch `index`, by its turn and ψ.
-    fn precession(&self, index: usize) -> Result<[f64; 3], Failure> {
-        let [turn, psi, _] = self.rates().map(|column| column[index]);
-        let body = if let [body] = self.of.bodies[..] { body } else { self.body(index)? };
-        if let Some(coin) = body.coin() {
-            return Ok(rate_of_precession(&coin, turn, psi)?.into());
+    /// The inertia ratios of the launches in `part`, up to the first one that is no coin, or a rod, whose spin does not follow
+    /// from ψ.
+    fn ratios(&self, part: Range<usize>) -> Vec<f64> {
+        let of = |body: Body| body.coin().filter(|coin| coin.i3() > 0.0).map(|coin| coin.inertia_ratio());
+        if let [body] = self.of.bodies[..] {
+            return of(body).map_or_else(Vec::new, |ratio| vec![ratio; part.len()]);
         }
-        let mut given = Thrown::default();
-        given.put_si(Field::Turn, &[turn])?;
-        given.put_si(Field::Psi, &[psi])?;
-        Ok(given.precession(&body)?.map_or([f64::NAN; 3], Into::into))
+        let moments = self.other(BODY, 0).zip(self.other(BODY, 1)).filter(|_| self.of.varying[BODY] == 2);
+        let ratio = |index: usize| {
+            let quotient = moments.and_then(|(i1, i3)| quotient(i1[index], i3[index]));
+            quotient.or_else(|| of(self.body(index).ok()?))
+        };
+        part.map_while(ratio).collect()
+    }
+
+    /// Why the turn and ψ of launch `index` give no rate.
+    fn no_rate(&self, index: usize) -> Failure {
+        let [turn, psi, _] = self.rates().map(|column| column[index]);
+        let rate = || -> Result<_, Failure> {
+            let body = if let [body] = self.of.bodies[..] { body } else { self.body(index)? };
+            let mut given = Thrown::default();
+            given.put_si(Field::Turn, &[turn])?;
+            given.put_si(Field::Psi, &[psi])?;
+            Ok(given.precession(&body)?)
+        };
+        rate().err().unwrap_or(NO_COIN.into()).at(self.first + index as u64)
     }
 
     /// The launches in `range`, which is part of a run, as tosses of `body`.
@@ -477,6 +489,14 @@ impl Launches<'_> {
         };
         done.map_err(|error| self.failed(start, error))
     }
+}
+
+/// The inertia ratio of a coin with these moments, where a quotient is all that it takes: its f64 is that of the quotient in
+/// double-double, whose rest never reaches half of its last digit.
+fn quotient(i1: f64, i3: f64) -> Option<f64> {
+    let ratio = i3 / i1;
+    let is_plain = (f64::MIN_POSITIVE..=f64::MAX).contains(&i1) && i3 > 0.0 && i3 <= 2.0 * i1;
+    (is_plain && ratio >= f64::MIN_POSITIVE).then_some(ratio)
 }
 
 /// The places of the launches from `start` on whose cos θ does not prove an outcome.

@@ -7,9 +7,9 @@
 
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -91,18 +91,46 @@ pub(crate) fn aside<R: Send + 'static, W>(py: Python<'_>, work: W) -> PyResult<R
 where
     W: FnOnce(&Stop) -> Result<R, Failure> + Send + 'static,
 {
-    let stop = Stop::default();
-    let ((told, done), (give, take)) = (mpsc::channel(), mpsc::channel::<W>());
-    let of_work = stop.clone();
+    let (stop, found) = (Stop::default(), Arc::new(Mutex::new(None)));
+    let (of_work, place) = (stop.clone(), found.clone());
+    done_aside(py, &stop, Box::new(move || done(&place, || work(&of_work))))?;
+    taken(&found)
+}
+
+/// Work that leaves its result somewhere. Without its type, the machinery of threads is compiled once.
+type Job = Box<dyn FnOnce() + Send>;
+
+/// Waits for a thread of its own that does `job`, or returns the exception of a signal.
+fn done_aside(py: Python<'_>, stop: &Stop, job: Job) -> PyResult<()> {
+    let ((told, done), (give, take)) = (mpsc::channel(), mpsc::channel::<Job>());
     let start = thread::Builder::new().spawn(move || {
-        // Nobody may be there to take it.
-        take.into_iter().for_each(|work| drop(told.send(catch_unwind(AssertUnwindSafe(|| work(&of_work))))));
+        take.into_iter().for_each(|job| {
+            job();
+            // Nobody may be there to hear it.
+            let _ = told.send(());
+        });
     });
-    let Ok(_) = start else { return Ok(py.detach(|| work(&stop))?) };
-    drop(give.send(work));
+    let Ok(_) = start else {
+        py.detach(job);
+        return Ok(());
+    };
+    drop(give.send(job));
     drop(give);
-    let answer = py.detach(move || listening(&stop, done))?;
-    Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
+    py.detach(move || listening(stop, done))
+}
+
+/// Where the result of some work is left, or what it panicked with.
+type Place<R> = Mutex<Option<thread::Result<Result<R, Failure>>>>;
+
+fn done<R>(place: &Place<R>, work: impl FnOnce() -> Result<R, Failure>) {
+    let result = catch_unwind(AssertUnwindSafe(work));
+    *place.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+}
+
+fn taken<R>(place: &Place<R>) -> PyResult<R> {
+    let result = place.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let result = result.unwrap_or_else(|| Err(Box::new("the work has no answer")));
+    Ok(result.unwrap_or_else(|panic| resume_unwind(panic))?)
 }
 
 /// Runs the handlers of the signals that have come; the exception is that of one of them, such as `KeyboardInterrupt`.
@@ -110,29 +138,28 @@ fn ask_for_signals(py: Python<'_>) -> PyResult<()> {
     py.check_signals()
 }
 
-/// What is received, or the exception of a signal, after which the work is to stop. It is called without Python's lock.
-fn listening<R>(stop: &Stop, done: Receiver<thread::Result<R>>) -> PyResult<thread::Result<R>> {
-    loop {
-        match done.recv_timeout(A_WHILE) {
-            Ok(answer) => return Ok(answer),
-            Err(RecvTimeoutError::Disconnected) => return Ok(Err(Box::new("the work has no answer"))),
-            Err(RecvTimeoutError::Timeout) => {
-                Python::attach(ask_for_signals).inspect_err(|_| stop.set())?;
-            }
-        }
+/// Waits until the work is done; or returns the exception of a signal, after which the work is to stop. It is called without
+/// Python's lock.
+fn listening(stop: &Stop, done: Receiver<()>) -> PyResult<()> {
+    while let Err(RecvTimeoutError::Timeout) = done.recv_timeout(A_WHILE) {
+        Python::attach(ask_for_signals).inspect_err(|_| stop.set())?;
     }
+    Ok(())
 }
 
 /// The result of `work` on the threads of `pool`, or the exception of a signal. `work` borrows, and is waited for.
 fn in_pool<R: Send>(pool: &rayon::ThreadPool, work: impl FnOnce(&Stop) -> Result<R, Failure> + Send) -> PyResult<R> {
-    let stop = Stop::default();
-    let (told, done) = mpsc::channel();
-    let answer = pool.in_place_scope(|scope| {
-        let of_work = &stop;
-        scope.spawn(move |_| drop(told.send(catch_unwind(AssertUnwindSafe(|| work(of_work))))));
-        listening(&stop, done)
+    let (stop, found) = (Stop::default(), Mutex::new(None));
+    let (told, end) = mpsc::channel();
+    pool.in_place_scope(|scope| {
+        let (of_work, place) = (&stop, &found);
+        scope.spawn(move |_| {
+            done(place, || work(of_work));
+            let _ = told.send(());
+        });
+        listening(&stop, end)
     })?;
-    Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
+    taken(&found)
 }
 
 /// The results of `work` for parts of `0..launches`, done here one after the other, while signals are listened for.

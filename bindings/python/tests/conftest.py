@@ -4,6 +4,8 @@ import json
 import os
 import shutil
 import subprocess
+import sysconfig
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -24,14 +26,32 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
                 item.add_marker(skip)
 
 
-@pytest.fixture(scope="session")
-def program() -> str:
-    """The program `unfair-toss`: UNFAIR_TOSS, or as cargo builds it, or installed."""
+def built(name: str, *others: str | None) -> str:
+    """The program of this name as cargo builds it, or else one of the others."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    for place in (os.environ.get("UNFAIR_TOSS"), target / "release" / "unfair-toss", shutil.which("unfair-toss")):
+    for place in (target / "release" / name, *others):
         if place and Path(place).exists():
             return str(place)
-    pytest.skip("no program to compare with: cargo build --release --bin unfair-toss")
+    pytest.skip(f"there is no program: cargo build --release --bin {name}")
+
+
+@pytest.fixture(scope="session")
+def program() -> str:
+    """The program `unfair-toss`."""
+    return os.environ.get("UNFAIR_TOSS") or built("unfair-toss", shutil.which("unfair-toss"))
+
+
+@pytest.fixture(scope="session")
+def suite(tmp_path_factory) -> Iterator[str]:
+    """The program of `verify`, as its wheel installs it; or else as cargo builds it, on the PATH under the same name."""
+    name = "unfair-toss-verify"
+    installed = shutil.which(name, path=sysconfig.get_path("scripts"))
+    with pytest.MonkeyPatch.context() as patch:
+        if installed is None:
+            folder = tmp_path_factory.mktemp("programs")
+            (folder / name).symlink_to(built("verify", shutil.which(name)))
+            patch.setenv("PATH", str(folder), prepend=os.pathsep)
+        yield installed or str(folder / name)
 
 
 @pytest.fixture(scope="session")

@@ -94,6 +94,11 @@ def test_turn_and_psi_are_columns_with_the_rates_of_single_tosses(body):
     assert found == ut.cos_tilt(*rate, 2.4, body="us-quarter")
     column = np.linspace(0.0, 3.0, 2001)
     single = np.array([ut.rate_of_precession(60.0, psi, "us-quarter") for psi in column])
+    moments = np.stack([np.linspace(1.0, 3.0, 2001), np.linspace(0.1, 2.0, 2001) ** 2], axis=-1) * 1e-7
+    moments[:3] = (1.0, 2.0000000000000004), (1e-9, 2e-9), (3e-300, 1e-305)
+    rates = [ut.rate_of_precession(60.0, psi, ut.Body.from_moments(own)) for psi, own in zip(column, moments, strict=True)]
+    found = ut.cos_tilt(turn=60.0, psi=column, time=0.5, moments=moments)
+    assert (found == ut.cos_tilt(*np.transpose(rates), time=0.5, moments=moments)).all()
     for solver in (None, "exact"):
         found = ut.outcome(turn=60.0, psi=column, speed=3.0, body="us-quarter", solver=solver)
         assert (found == ut.outcome(*single.T, 3.0, body="us-quarter", solver=solver)).all()

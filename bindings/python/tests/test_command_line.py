@@ -93,6 +93,23 @@ COMMANDS = {
     "man": (None, {}),
 }
 
+OF_THE_SUITE = {
+    name: f"verify.{name.replace('-', '_')}"
+    for name in ("quick", "deep", "only", "bodies", "claim", "answer-seconds", "total-seconds", "time-factor")
+} | {
+    "out": "verify.folder",
+    "command": "none: it is the function",
+    "memory-mb": "none: the function is in this process",
+    "bless": "none: a baseline is of a program, by --command",
+    "validation": "none: the same",
+    "worse-above": "none: the same",
+    "verbose": "none: a Verification has all rows",
+    "list": "none: verification.md",
+    "replay": "none: f(toss)",
+    "row": "none: the same",
+    "resume": "none: not with --command, either",
+}
+
 
 def help_of(program: str, *command: str) -> str:
     return subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True).stdout
@@ -109,7 +126,15 @@ def test_every_option_has_a_keyword_or_a_reason(command, program):
     if function is None:
         return
     assert callable(getattr(ut, function))
-    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", help_of(program, command), re.MULTILINE))
+    each_has_a_counterpart(help_of(program, command), function, spelled)
+
+
+def test_every_option_of_the_suite_has_a_keyword_or_a_reason(suite):
+    each_has_a_counterpart(help_of(suite), "verify", OF_THE_SUITE)
+
+
+def each_has_a_counterpart(text: str, function: str, spelled: dict[str, str]) -> None:
+    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", text, re.MULTILINE))
     known = ALL | spelled
     assert not options - set(known), "options without a counterpart"
     for option in options:

@@ -83,6 +83,11 @@ def one_thread():
     return ThreadPoolExecutor(1)
 
 
+def landed(toss, *rates, **launch):
+    """The attitude of a toss, or of columns."""
+    return ut.attitude(toss, *rates, **launch) if rates else ut.toss(toss)
+
+
 # Everything public that takes arguments, with arguments that are right.
 CALLS = {
     "Toss": (ut.Toss, {"rate": (1, 2, 3), "speed": 3.0}),
@@ -150,6 +155,11 @@ CALLS = {
     "probability by a solver": (ut.probability, {"space": SPACE, "plan": PLAN, "solver": "quaternion", "prove": True}),
     "probability to an accuracy": (ut.probability, {"space": SPACE, "accuracy": 1e-2}),
     "probability by an executor": (ut.probability, {"space": SPACE, "plan": PLAN, "executor": one_thread, "shards": 2, "retries": 3}),
+    "verify": (
+        ut.verify,
+        {"f": landed, "columns": False, "only": "reference-cos-tilt", "quick": True, "deep": False, "bodies": False, "claim": 1e-9}
+        | {"answer_seconds": 9.0, "total_seconds": 90, "time_factor": 2, "folder": "report", "program": None},
+    ),
     "probability in a folder": (ut.probability, {"space": SPACE, "plan": PLAN, "folder": None, "shards": 2}),
     **{
         f"{function.__name__}{words}": (function, COLUMNS | {"threads": 1} | more)
@@ -170,19 +180,21 @@ PAIRS = [(name, argument) for name, (_, arguments) in CALLS.items() for argument
 
 @pytest.mark.parametrize(("name", "argument"), PAIRS, ids=lambda value: value)
 @pytest.mark.filterwarnings("error")
-def test_a_hostile_value_is_refused_by_the_name_of_its_argument(name, argument, tmp_path, monkeypatch):
+def test_a_hostile_value_is_refused_by_the_name_of_its_argument(name, argument, tmp_path, monkeypatch, suite):
     # Some texts are names of folders.
     monkeypatch.chdir(tmp_path)
     call, right = CALLS[name]
     call(**right)
     refused = 0
     for words, value in HOSTILE.items():
-        if argument in ("progress", "executor") and callable(value):
+        if argument in ("progress", "executor", "f") and callable(value):
             continue
         try:
             call(**(right | {argument: value}))
         except errors.SolveError:
             pass  # A number, and one with which no solver can go on.
+        except errors.ProgramError:
+            assert argument == "program"
         except errors.InputError as error:
             refused += 1
             # Without an argument, it may be another one that has no effect or is needed.
@@ -194,7 +206,8 @@ def test_a_hostile_value_is_refused_by_the_name_of_its_argument(name, argument, 
     assert refused >= (10 if argument in ("progress", "executor") else 20)
 
 
-TEXTS = {"across", "up", "want", "solver", "method", "scheme", "formulation", "name", "body", "text", "folder"}
+TEXTS = {"across", "up", "want", "solver", "method", "scheme", "formulation", "name", "body", "text", "folder", "program"}
+TRUTHS = {"dense_output", "prove", "columns", "quick", "deep", "bodies"}
 NO_NUMBERS = [
     "True", "numpy True", "b'x'", "1+2j", "masked", "datetime64", "timedelta64", "timedelta", "dict", "set", "truth values",
     "texts", "True in a list", "a text in a list", "masked in a list", "a span in a list", "a masked array", "objects",
@@ -202,7 +215,7 @@ NO_NUMBERS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS | {"dense_output", "prove"}], ids=lambda value: value)
+@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS | TRUTHS], ids=lambda value: value)
 def test_what_would_change_its_meaning_is_no_number(name, argument):
     call, right = CALLS[name]
     for words in NO_NUMBERS:
@@ -264,7 +277,7 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Comparison", "Convergence", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Limit", "Map", "Margins", "MethodErrors", "PeopleSpread", "Sample", "Sensitivity", "Solution", "Spread", "SpreadAlone", "Power", "SameSideBias", "Trace", "Work"}
+    answers = {"Choice", "Comparison", "Convergence", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Limit", "Map", "Margins", "MethodErrors", "PeopleSpread", "Sample", "Sensitivity", "Solution", "Spread", "SpreadAlone", "Power", "SameSideBias", "Trace", "Verification", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
     without_arguments = {"bodies", "models", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}

@@ -19,7 +19,7 @@ def python_blocks(page: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md", "docs/guide/python.md"])
-def test_the_lines_of_the_readme_run(page):
+def test_the_lines_of_the_readme_run(page, suite):
     blocks = python_blocks(ROOT / page)
     assert blocks
     for block in blocks:

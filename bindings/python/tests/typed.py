@@ -32,6 +32,12 @@ assert_type(ut.cos_tilt(1.0, 1, "2rad/s", speed=3.0), np.float64)
 assert_type(ut.cos_tilt(rates, 1.0, 2.0, 3.0), npt.NDArray[np.float64])
 assert_type(ut.outcome([1.0, 2.0], 1.0, 2.0, 3.0, tilt=rates[:2]), npt.NDArray[np.int8])
 assert_type(ut.outcome(1.0, 1.0, labelled, 3.0), xr.DataArray)
+assert_type(ut.cos_tilt(1.0, 1.0, 2.0, 3.0, tilt=labelled), xr.DataArray)
+assert_type(ut.cos_tilt(1.0, 1.0, 2.0, time=rates, threads=2, solver="exact"), npt.NDArray[np.float64])
+assert_type(ut.attitude(1.0, 1.0, 2.0, time=3.0, drop=labelled), xr.DataArray)
+assert_type(ut.attitude(1.0, 1.0, 2.0, 3.0, tilt=Series()), Frame)
+ut.cos_tilt(1.0, 1.0, 2.0, 3.0, tlit=0.1)  # type: ignore[call-overload]  # pyright: ignore
+ut.cos_tilt(1.0, 1.0, 2.0, 3.0, threads="2")  # type: ignore[call-overload]  # pyright: ignore
 assert_type(ut.outcome(turn=rates, psi=1.2, speed=3.0, body=["paper", "disc"]), npt.NDArray[np.int8])
 assert_type(ut.cos_tilt(turn=6.0, psi="80deg", speed=3.0), np.float64)
 assert_type(ut.cos_tilt(1.0, 1.0, 2.0, 3.0, moments=[[1.0, 1.5], [1.0, 2.0]]), npt.NDArray[np.float64])

@@ -29,7 +29,7 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("docs/more-machines.md", "sh", 2, "crates/cli/tests/documents.rs", "a job for each part, and their sum, below"),
     ("docs/more-machines.md", "yaml", 1, "bindings/python/tests/test_more_machines.py", "runs the command of each pod"),
     ("docs/guide/machines.md", "sh", 1, "crates/cli/tests/documents.rs", "the parts and their sum, below"),
-    ("docs/guide/python.md", "python", 8, "bindings/python/tests/test_package.py", "runs them"),
+    ("docs/guide/python.md", "python", 9, "bindings/python/tests/test_package.py", "runs them"),
     ("docs/guide/python.md", "sh", 1, ".ci/python", "builds and installs the package"),
     ("docs/your-solver.md", "text", 1, "crates/verify/tests/process.rs", "compares the columns"),
     (

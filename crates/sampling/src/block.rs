@@ -1,6 +1,7 @@
 //! This file holds a block of launches as columns, one for each coordinate. This is the layout that the batch kernels
 //! of the crate `exact` read, and threads reuse the memory from block to block.
 
+use dynamics::precession::rates_of_precession;
 use dynamics::{Attitude, Body, Tosses};
 
 use crate::coordinate::Coordinate;
@@ -20,8 +21,8 @@ pub(crate) struct Block {
     columns: Vec<Column>,
     /// Number of launches that the columns hold now.
     length: usize,
-    /// The space, if its rates follow from a precession.
-    of_precession: Option<Space>,
+    /// The inertia ratio for each launch, if the rates follow from a precession.
+    ratios: Option<Column>,
 }
 
 /// The place of the spare column, for numbers that nobody reads.
@@ -31,8 +32,9 @@ impl Block {
     /// A block in which every coordinate has its fixed value of `space`, until its column is written.
     pub(crate) fn new(space: &Space) -> Self {
         let values = space.fixed_values().into_iter().chain([0.0]);
-        let of_precession = space.is_of_precession().then_some(*space);
-        Self { columns: values.map(|value| Column([value; BLOCK])).collect(), length: 0, of_precession }
+        let coin = space.coin().filter(|_| space.is_of_precession());
+        let ratios = coin.map(|coin| Column([coin.inertia_ratio(); BLOCK]));
+        Self { columns: values.map(|value| Column([value; BLOCK])).collect(), length: 0, ratios }
     }
 
     /// Sets the number of launches to `length` ≤ [`BLOCK`].
@@ -64,13 +66,12 @@ impl Block {
 
     /// Writes the rates that follow from a turn and ψ, once these are written.
     pub(crate) fn finish(&mut self) {
-        let Some(space) = self.of_precession else { return };
-        for index in 0..self.length {
-            let [turn, psi] = [Coordinate::Turn, Coordinate::Psi].map(|of| self.column(of)[index]);
-            let rate = space.rate_of(turn, psi).expect("a space of precessions");
-            self.column_mut(Coordinate::RateX)[index] = rate.x;
-            self.column_mut(Coordinate::RateZ)[index] = rate.z;
-        }
+        let Some(ratios) = &self.ratios else { return };
+        let places = [Coordinate::Turn, Coordinate::Psi, Coordinate::RateX, Coordinate::RateZ].map(|of| of as usize);
+        let columns = self.columns.get_disjoint_mut(places).expect("different columns");
+        let [turns, psis, x, z] = columns.map(|column| &mut column.0[..self.length]);
+        let refused = rates_of_precession(&ratios.0[..self.length], turns, psis, [x, z]);
+        assert_eq!(refused, None, "every axis was checked when the space was made");
     }
 
     /// The values of launch number `index` of the block.

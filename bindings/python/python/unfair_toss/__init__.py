@@ -14,8 +14,9 @@ from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, power, rate_of_precession, same_side_bias, toss, trace
 from .solving import solve
 from .studies import compare, convergence, limit, map, sample, sampling_errors, sensitivity, spread
-from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone
+from .tables import Comparison, Convergence, Limit, Map, MethodErrors, Sample, Sensitivity, Spread, SpreadAlone, Verification
 from .tallies import tally
+from .verification import verify
 
 __all__ = [
     "Body",
@@ -46,6 +47,7 @@ __all__ = [
     "Tally",
     "Toss",
     "Trace",
+    "Verification",
     "Work",
     "__version__",
     "attitude",
@@ -79,6 +81,7 @@ __all__ = [
     "tally",
     "toss",
     "trace",
+    "verify",
 ]
 
 given.suggest(globals())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypeAlias, TypeVar, cast, overload
+from typing import Any, Generic, Protocol, TypeAlias, TypedDict, TypeVar, Unpack, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -79,6 +79,23 @@ class _Framed(Protocol[_Frame]):
     def to_frame(self) -> _Frame: ...
 
 
+_Of = TypeVar("_Of")
+
+
+class Others(TypedDict, Generic[_Of], total=False):
+    """The keywords that are the same for numbers, for columns and for what has labels."""
+
+    time: _Of | None
+    gravity: _Of | None
+    drop: _Of | None
+    tilt: _Of | None
+    attitude: Attitudes | None
+    turn: _Of | None
+    psi: _Of | None
+    solver: str | Solver | None
+    threads: int | None
+
+
 class OfColumns(Protocol[_Number]):
     """A function of columns: of numbers it gives a number, of what has labels the same, of arrays an array."""
 
@@ -90,17 +107,9 @@ class OfColumns(Protocol[_Number]):
         rate_z: _One | None = None,
         speed: _One | None = None,
         *,
-        time: _One | None = None,
-        gravity: _One | None = None,
-        drop: _One | None = None,
-        tilt: _One | None = None,
-        attitude: Attitudes | None = None,
-        turn: _One | None = None,
-        psi: _One | None = None,
         body: str | Body | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: None = None,
+        **others: Unpack[Others[_One]],
     ) -> _Number: ...
 
     @overload
@@ -111,18 +120,10 @@ class OfColumns(Protocol[_Number]):
         rate_z: _Labels | _One | None = None,
         speed: _Labels | _One | None = None,
         *,
-        time: _Labels | _One | None = None,
-        gravity: _Labels | _One | None = None,
-        drop: _Labels | _One | None = None,
-        tilt: _Labels | _One | None = None,
-        attitude: Attitudes | None = None,
-        turn: _Labels | _One | None = None,
-        psi: _Labels | _One | None = None,
         body: _Labels | str | Body | None = None,
         moments: _Labels | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: None = None,
+        **others: Unpack[Others[_Labels | _One]],
     ) -> _Labels: ...
 
     @overload
@@ -133,18 +134,10 @@ class OfColumns(Protocol[_Number]):
         rate_z: npt.ArrayLike | None = None,
         speed: npt.ArrayLike | None = None,
         *,
-        time: npt.ArrayLike | None = None,
-        gravity: npt.ArrayLike | None = None,
-        drop: npt.ArrayLike | None = None,
-        tilt: npt.ArrayLike | None = None,
-        attitude: Attitudes | None = None,
-        turn: npt.ArrayLike | None = None,
-        psi: npt.ArrayLike | None = None,
         body: Bodies | None = None,
         moments: npt.ArrayLike | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: npt.NDArray[_Number] | None = None,
+        **others: Unpack[Others[npt.ArrayLike]],
     ) -> npt.NDArray[_Number]: ...
 
 
@@ -159,17 +152,9 @@ class OfAttitudes(Protocol):
         rate_z: _One | None = None,
         speed: _One | None = None,
         *,
-        time: _One | None = None,
-        gravity: _One | None = None,
-        drop: _One | None = None,
-        tilt: _One | None = None,
-        attitude: Attitudes | None = None,
-        turn: _One | None = None,
-        psi: _One | None = None,
         body: str | Body | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: npt.NDArray[np.float64] | None = None,
+        **others: Unpack[Others[_One]],
     ) -> npt.NDArray[np.float64]: ...
 
     @overload
@@ -180,18 +165,10 @@ class OfAttitudes(Protocol):
         rate_z: _Array | _One | None = None,
         speed: _Array | _One | None = None,
         *,
-        time: _Array | _One | None = None,
-        gravity: _Array | _One | None = None,
-        drop: _Array | _One | None = None,
-        tilt: _Array | _One | None = None,
-        attitude: Attitudes | None = None,
-        turn: _Array | _One | None = None,
-        psi: _Array | _One | None = None,
         body: _Array | str | Body | None = None,
         moments: _Array | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: None = None,
+        **others: Unpack[Others[_Array | _One]],
     ) -> _Array: ...
 
     @overload
@@ -202,18 +179,10 @@ class OfAttitudes(Protocol):
         rate_z: _Framed[_Frame] | _One | None = None,
         speed: _Framed[_Frame] | _One | None = None,
         *,
-        time: _Framed[_Frame] | _One | None = None,
-        gravity: _Framed[_Frame] | _One | None = None,
-        drop: _Framed[_Frame] | _One | None = None,
-        tilt: _Framed[_Frame] | _One | None = None,
-        attitude: Attitudes | None = None,
-        turn: _Framed[_Frame] | _One | None = None,
-        psi: _Framed[_Frame] | _One | None = None,
         body: _Framed[_Frame] | str | Body | None = None,
         moments: _Framed[_Frame] | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: None = None,
+        **others: Unpack[Others[_Framed[_Frame] | _One]],
     ) -> _Frame: ...
 
     @overload
@@ -224,18 +193,10 @@ class OfAttitudes(Protocol):
         rate_z: npt.ArrayLike | None = None,
         speed: npt.ArrayLike | None = None,
         *,
-        time: npt.ArrayLike | None = None,
-        gravity: npt.ArrayLike | None = None,
-        drop: npt.ArrayLike | None = None,
-        tilt: npt.ArrayLike | None = None,
-        attitude: Attitudes | None = None,
-        turn: npt.ArrayLike | None = None,
-        psi: npt.ArrayLike | None = None,
         body: Bodies | None = None,
         moments: npt.ArrayLike | None = None,
-        solver: str | Solver | None = None,
-        threads: int | None = None,
         out: npt.NDArray[np.float64] | None = None,
+        **others: Unpack[Others[npt.ArrayLike]],
     ) -> npt.NDArray[np.float64]: ...
 
 

@@ -126,3 +126,11 @@ class MisbehavedError(SolveError):
 
 class FailedError(SolveError):
     """The solver failed for a reason of its own."""
+
+
+class NotVerifiedError(TossError, RuntimeError):
+    """A function that fails a check of the verification suite."""
+
+
+class ProgramError(TossError, RuntimeError):
+    """The program of the verification suite is not there, or could not run."""

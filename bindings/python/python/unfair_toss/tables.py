@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from html import escape
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
 
+from .errors import NotVerifiedError
 from .results import ShownAsTable, _HoldsArrays
 
 if TYPE_CHECKING:
@@ -22,14 +23,19 @@ _Floats = npt.NDArray[np.float64]
 class Table(ShownAsTable, _HoldsArrays):
     """Columns of the same length. ``polars.DataFrame(table)`` and ``pyarrow.table(table)`` read it, too."""
 
+    _SHOWN: ClassVar[int] = 20
+    """How many rows a notebook shows."""
+
     @classmethod
-    def _of(cls, rows: list[dict[str, Any]]) -> Self:
-        """The columns of rows of JSON. A number that is not known is NaN."""
-        return cls(**{field.name: _column(str(field.type), [row.get(field.name) for row in rows]) for field in fields(cls)})
+    def _of(cls, rows: list[dict[str, Any]], **others: Any) -> Self:
+        """The columns of rows of JSON, beside other fields. A number that is not known is NaN."""
+        columns = (field for field in fields(cls) if field.name not in others)
+        return cls(**{field.name: _column(str(field.type), [row.get(field.name) for row in rows]) for field in columns}, **others)
 
     def to_dict(self) -> dict[str, npt.NDArray[Any]]:
         """The columns by their names."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
 
     def to_pandas(self) -> pd.DataFrame:
         """A ``pandas.DataFrame`` with a row for each row."""
@@ -50,7 +56,7 @@ class Table(ShownAsTable, _HoldsArrays):
         return f"{type(self).__name__}({len(self)} rows: {', '.join(self.to_dict())})"
 
     def _repr_html_(self) -> str:
-        shown = 20
+        shown = self._SHOWN
         rows = zip(*(column[:shown] for column in self.to_dict().values()), strict=True)
         body = "".join(f"<tr>{''.join(f'<td>{escape(str(cell))}</td>' for cell in row)}</tr>" for row in rows)
         head = "".join(f"<th>{name}</th>" for name in self.to_dict())
@@ -212,6 +218,88 @@ class Sample(Table):
     cos_tilt: _Floats
     outcome: npt.NDArray[np.int8]
     certified: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Verification(Table):
+    """What the checks of the verification suite found, the worst row first.
+
+    Attributes
+    ----------
+    check : ndarray of str
+        Name of the check.
+    status : ndarray of str
+        ``"pass-by-claim"`` or another that begins with ``"pass"``; ``"not-judged"``; any other one is a failure.
+    measured, limit : ndarray of float64
+        The deviation that was measured, and the largest one that is allowed; NaN where there is none.
+    unit : ndarray of str
+        Unit of both.
+    reserve : ndarray of float64
+        ``limit / measured``.
+    cases, without_answer : ndarray of int64
+        Numbers of launches, and of those without an answer.
+    worst_input, failure : ndarray of str
+        The worst launch, and why it has no answer.
+    claim : ndarray of str
+        What the check claims.
+    passed : bool
+        Whether no row fails.
+    diagnosis : str
+        What the function most likely does wrong; empty if it is right.
+    """
+
+    _SHOWN = 50
+
+    check: npt.NDArray[np.str_]
+    status: npt.NDArray[np.str_]
+    measured: _Floats
+    limit: _Floats
+    unit: npt.NDArray[np.str_]
+    reserve: _Floats
+    cases: npt.NDArray[np.int64]
+    without_answer: npt.NDArray[np.int64]
+    worst_input: npt.NDArray[np.str_]
+    failure: npt.NDArray[np.str_]
+    claim: npt.NDArray[np.str_]
+    passed: bool
+    diagnosis: str
+
+    @classmethod
+    def _of_report(cls, report: dict[str, Any], diagnosis: str) -> Self:
+        """The rows of a report of the suite."""
+
+        def rank(row: dict[str, Any]) -> tuple[bool, float]:
+            return _passes(row["status"]), np.inf if row["reserve"] is None else row["reserve"]
+
+        return cls._of(sorted(report["rows"], key=rank), passed=report["passed"], diagnosis=diagnosis)
+
+    def require(self) -> Self:
+        """These rows, if none fails.
+
+        Raises
+        ------
+        errors.NotVerifiedError
+            With the diagnosis and the failing checks.
+        """
+        if not self.passed:
+            raise NotVerifiedError(self._words())
+        return self
+
+    def _words(self) -> str:
+        failing = self.check[[not _passes(status) for status in self.status]]
+        if not failing.size:
+            return f"passes all {len(self)} checks"
+        return f"fails {len(failing)} of {len(self)} checks ({', '.join(failing)}). {self.diagnosis}".strip()
+
+    def __repr__(self) -> str:
+        return f"Verification({self._words()})"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{escape(self._words())}</p>{super()._repr_html_()}"
+
+
+def _passes(status: str) -> bool:
+    return status.startswith("pass") or status == "not-judged"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -23,8 +23,8 @@ pub use double::{Complex, Double, compensated_product, complex_product, inverse,
 pub use philox::Philox;
 pub use real::{Mask, Real};
 pub use trigonometry::{
-    MOST_TURNS, ROUGH_ERROR, cosine_as_sine, rough_cos_of_half, rough_sin_of_half, sin_cos, sin_cos_to_sign,
-    sin_of_turns,
+    HALF_TURN_ERROR, MOST_TURNS, ROUGH_ERROR, cosine_as_sine, rough_cos_of_half, rough_sin_of_half, sin_cos,
+    sin_cos_of_half_turn, sin_cos_to_sign, sin_of_turns,
 };
 
 /// A SIMD level: an instruction set for which kernels are compiled.

@@ -8,6 +8,7 @@
 use pulp::Simd;
 
 use super::real::Real;
+use crate::angle::QUARTER;
 
 /// Largest number of turns, 2^40, whose fractional part has all digits of an f64 if the number comes with a rest.
 pub const MOST_TURNS: f64 = 1_099_511_627_776.0;
@@ -78,6 +79,32 @@ const ROUGH_COSINE_OF_HALVES: [f64; 7] = [
     -0.025_776_340_756_994_05,
     0.001_840_021_874_339_118_3,
 ];
+
+/// 1/5!, -1/7!, … and -1/6!, 1/8!, …: the further terms of sine and cosine, for angles up to π/4.
+const SINE: [f64; 7] = [
+    1.0 / 120.0,
+    -1.0 / 5_040.0,
+    1.0 / 362_880.0,
+    -1.0 / 39_916_800.0,
+    1.0 / 6_227_020_800.0,
+    -1.0 / 1_307_674_368_000.0,
+    1.0 / 355_687_428_096_000.0,
+];
+const COSINE: [f64; 7] = [
+    -1.0 / 720.0,
+    1.0 / 40_320.0,
+    -1.0 / 3_628_800.0,
+    1.0 / 479_001_600.0,
+    -1.0 / 87_178_291_200.0,
+    1.0 / 20_922_789_888_000.0,
+    -1.0 / 6_402_373_705_728_000.0,
+];
+
+/// What rounding took from -1/6.
+const REST_OF_SIXTH: f64 = -9.251_858_538_542_97e-18;
+
+/// The largest error of [`sin_cos_of_half_turn`], as a part of the distance between neighbouring f64 at the result.
+pub const HALF_TURN_ERROR: f64 = 0.55;
 
 /// Largest absolute error of [`rough_sin_of_half`] and [`rough_cos_of_half`].
 pub const ROUGH_ERROR: f64 = 1.4e-11;
@@ -153,13 +180,54 @@ pub fn sin_cos<S: Simd>(quarters: Real<S>, rest: Real<S>) -> [Real<S>; 2] {
     [sign * sin, sign * cos]
 }
 
+/// Sine and cosine of an angle from 0 to π (rad), with an error of at most [`HALF_TURN_ERROR`] of the distance between neighbouring
+/// f64 at the result.
+///
+/// Less the nearest multiple of π/2, which is subtracted exactly and then with its rest, an angle d + e of at most π/4 is left:
+///
+/// ```text
+/// sin(d + e) = d - d³/6 + (d⁵ (1/5! - d²/7! + …) + e cos d)
+/// cos(d + e) = 1 - d²/2 + d⁴/4! - (d⁶ (1/6! - d²/8! + …) + e d)
+/// ```
+///
+/// Of all but the last terms, which are at most 0.003, what their roundings lose is kept.
+#[inline(always)]
+pub fn sin_cos_of_half_turn<S: Simd>(angle: Real<S>) -> [Real<S>; 2] {
+    let (one, half) = (angle.constant(1.0), angle.constant(0.5));
+    let quarters = (angle * angle.constant(std::f64::consts::FRAC_2_PI)).round();
+    let [first, second, third] = QUARTER;
+    let [d, e] = (angle - quarters * angle.constant(first)).sum(-(quarters * angle.constant(second)));
+    let e = e - quarters * angle.constant(third);
+    let [square, square_rest] = d.product(d);
+    let [cube, cube_rest] = square.product(d);
+    let cube_rest = square_rest.mul_add(d, cube_rest);
+    let [sixth, sixth_rest] = cube.product(angle.constant(-1.0 / 6.0));
+    let sixth_rest =
+        cube.mul_add(angle.constant(REST_OF_SIXTH), cube_rest.mul_add(angle.constant(-1.0 / 6.0), sixth_rest));
+    let [sin, sin_rest] = d.sum(sixth);
+    let others = (cube * square).mul_add(polynomial(square, SINE), e * (one - half * square));
+    let sin = sin + (sin_rest + (sixth_rest + others));
+    let [cos, cos_rest] = one.sum(-(half * square));
+    let [fourth, fourth_rest] = square.product(square);
+    let fourth_rest = (square + square).mul_add(square_rest, fourth_rest);
+    let others = (fourth * square).mul_add(polynomial(square, COSINE), -(e * d));
+    let part = angle.constant(1.0 / 24.0);
+    let others = fourth.mul_add(part, fourth_rest.mul_add(part, others));
+    let cos = cos + (cos_rest + half.mul_add(-square_rest, others));
+    let is_one = (quarters - one).abs().less_than(half);
+    let is_two = one.less_than(quarters);
+    [is_one.choose(cos, is_two.choose(-sin, sin)), is_one.choose(-sin, is_two.choose(-cos, cos))]
+}
+
 #[cfg(test)]
 mod tests {
     use pulp::Scalar;
 
     use super::*;
     use crate::UNIT_ROUNDOFF;
+    use crate::big::exactly;
     use crate::double_double::DoubleDouble;
+    use crate::quantity::Unit;
 
     const PI: [f64; 2] = [std::f64::consts::PI, 1.224_646_799_147_353_2e-16];
 
@@ -211,6 +279,32 @@ mod tests {
             let errors = [sin - expected(x, 2.0)[0], cos - expected(x, 2.0)[1]];
             assert!(errors.iter().all(|error| error.abs() <= 2.5 * UNIT_ROUNDOFF), "{x}: {errors:?}");
         }
+    }
+
+    /// The bound is that of the tests of proofs: from 256 digits, over angles of every size and next to each multiple of π/4.
+    #[test]
+    fn sine_and_cosine_of_half_a_turn_are_right_to_the_last_digit() {
+        let pi = std::f64::consts::PI;
+        let next_to =
+            |angle: f64| (-300..300).map(move |steps: i64| f64::from_bits(angle.to_bits().wrapping_add_signed(steps)));
+        let small = (0..1000).map(|power| 2f64.powf(-0.7 * f64::from(power)));
+        let even = (0..=6000).map(|part| pi * f64::from(part) / 6000.0);
+        let near = [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(|part| next_to(part * pi));
+        let angles: Vec<f64> = small.chain(even).chain(near).filter(|angle| *angle <= pi).collect();
+        let (mut largest, mut other_than_std) = (0.0_f64, 0);
+        for angle in &angles {
+            let found = sin_cos_of_half_turn(real(*angle)).map(value);
+            let exact = Unit::ONE.times(*angle).sin_cos_in_digits(256);
+            for (found, exact) in found.into_iter().zip(exact) {
+                let step = (found.abs().next_up() - found.abs()).max(f64::MIN_POSITIVE);
+                let error = (exactly(found) - &exact).with_precision(60).value().to_f64().value().abs() / step;
+                assert!(error <= HALF_TURN_ERROR, "{angle}: {found} is off by {error} steps");
+                largest = largest.max(error);
+            }
+            other_than_std += usize::from(found != <[f64; 2]>::from(angle.sin_cos()));
+        }
+        assert!(largest > 0.53, "{largest}");
+        println!("{largest}; {other_than_std} of {} are others than those of std", angles.len());
     }
 
     /// The filter of outcomes relies on the bound. A bound that is too large would make the filter weaker than need be.

@@ -56,11 +56,17 @@ pub(super) const CHECKS: &[Check] = &[
             "cos θ at landing from a batch differs from the 256-bit reference by at most the limit, for phases up to \
              1e9 rad, near changes of the outcome and at the corners of the model.",
         ),
-    Check::of_library("varying-cos-tilt", Tosses(of_varying, Largest)).up_to(1e-14, "1").claims(
+    Check::of_library("varying-cos-tilt", Tosses(|| of_varying(varied_cos_tilt_error), Largest)).up_to(1e-14, "1").claims(
         "cos θ at landing, from the kernel whose launches each have a gravity, drop and attitude of their own, differs from \
          the 256-bit reference by at most the limit, for phases up to 4e12 rad and landings up to the highest point. Of \
          launches that the kernel leaves out nothing is measured.",
     ),
+    Check::of_library("varying-attitude", Tosses(|| of_varying(varied_attitude_error), Largest))
+        .up_to(1e-14, "rad")
+        .claims(
+            "The attitude at landing, from the same kernel, differs from the 256-bit reference by at most the limit, for phases \
+             up to 4e12 rad and landings up to the highest point. Of launches that the kernel leaves out nothing is measured.",
+        ),
     Check::of_library("batch-attitude", Tosses(|| of_batches(batched_attitude_error), Largest))
         .up_to(1e-14, "rad")
         .claims(
@@ -199,11 +205,11 @@ fn of_batches(error: OfToss) -> Vec<Set> {
     ]
 }
 
-fn of_varying() -> Vec<Set> {
+fn of_varying(error: OfToss) -> Vec<Set> {
     vec![
-        Set::of_tries("phases to 1e2", |tries| random(tries, 1e2, 11), varied_cos_tilt_error),
-        Set::of_tries("phases to 1e9", |tries| random(tries, 1e9, 13), varied_cos_tilt_error),
-        Set::of_tries("near the highest point", |tries| caught_high(random(tries, 4e12, 17)?), varied_cos_tilt_error),
+        Set::of_tries("phases to 1e2", |tries| random(tries, 1e2, 11), error),
+        Set::of_tries("phases to 1e9", |tries| random(tries, 1e9, 13), error),
+        Set::of_tries("near the highest point", |tries| caught_high(random(tries, 4e12, 17)?), error),
     ]
 }
 
@@ -221,6 +227,20 @@ fn caught_high(tosses: Vec<Toss>) -> anyhow::Result<Vec<Toss>> {
 
 /// The error of cos θ by the kernel of launches that vary in all; 0 of one that it leaves out.
 fn varied_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
+    let mut found = [0.0];
+    varied(toss, |tosses| tosses.cos_tilts(&mut found))?;
+    Ok(if found[0].is_nan() { 0.0 } else { reference.cos_tilt_error(found[0]) })
+}
+
+/// The angle (rad) to the exact attitude, by the same kernel; 0 of one that it leaves out.
+fn varied_attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
+    let mut found = [[0.0]; 4];
+    varied(toss, |tosses| tosses.attitudes(found.each_mut().map(<[f64; 1]>::as_mut_slice)))?;
+    Ok(Attitude::from_components(found.map(|[part]| part)).map_or(0.0, |attitude| reference.attitude_error(&attitude)))
+}
+
+/// Hands `toss` to `solve`, as launches that vary in all.
+fn varied(toss: &Toss, solve: impl FnOnce(&Varying<'_>)) -> Result<(), SolveError> {
     let one = Column::All;
     let flights = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => Flights::Level(one(speed), one(gravity)),
@@ -233,9 +253,8 @@ fn varied_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
     };
     let rate = toss.launch.rate();
     let rates: [&[f64]; 3] = [&[rate.x], &[rate.y], &[rate.z]];
-    let mut found = [0.0];
-    Varying { coins: coin(toss)?.coin.into(), rates, flights, attitudes }.cos_tilts(&mut found);
-    Ok(if found[0].is_nan() { 0.0 } else { reference.cos_tilt_error(found[0]) })
+    solve(&Varying { coins: coin(toss)?.coin.into(), rates, flights, attitudes });
+    Ok(())
 }
 
 /// The tosses as a batch can take them: it knows no landing at another height, only how long such a flight lasts.
