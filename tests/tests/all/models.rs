@@ -189,7 +189,9 @@ fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
 fn an_enclosure_gives_way_and_is_the_answer_where_nothing_else_serves() {
     let figure = || Scene::new(Want::Probability(sampling::named_space("paper-fig4").unwrap()), 1e-7);
     let answer = |scene: &Scene, sampler: &Sampler<'_>| {
-        let Answer::Probability(found) = scene.solve_with(sampler).unwrap() else { panic!("a probability was asked for") };
+        let Answer::Probability(found) = scene.solve_with(sampler).unwrap() else {
+            panic!("a probability was asked for")
+        };
         (found.plan.method().name(), found)
     };
     assert_eq!(figure().plan().unwrap().choice.model.name, "share-enclosure");
