@@ -170,6 +170,15 @@ impl Running {
         if is_claimed { entry } else { entry.with_schemes(&[OWN]) }
     }
 
+    /// The same program in other processes, which are soon ended where it hangs, so that many questions show on which it does.
+    pub(crate) fn impatient(&self) -> Self {
+        Self { pool: Arc::new(self.pool.impatient()), ..self.clone() }
+    }
+
+    pub(crate) fn is_given_up(&self) -> bool {
+        self.pool.is_given_up()
+    }
+
     /// What became of the questions so far.
     pub(crate) fn tally(&self) -> Tally {
         self.pool.tally()
@@ -192,7 +201,8 @@ impl Running {
             finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
             _ => Err("answered a quaternion that is not finite".to_owned()),
         });
-        Asked::new(toss, format!("{HEADER}\n{}", exchange.question), &question, exchange.line, answer, allowed)
+        let as_got = format!("{HEADER}\n{}", exchange.question);
+        Some(Asked::new(toss, as_got, &question, exchange.line, answer, allowed)?.late(exchange.is_late))
     }
 }
 

@@ -94,12 +94,8 @@ impl Question {
 
     /// What is asked, for a diagnosis.
     pub(crate) fn numbers(&self) -> Numbers {
-        Numbers::new(self.moments, self.rate.into(), self.time, self.attitude.components())
-    }
-
-    /// From the axes of the question to BF.
-    pub(crate) fn axes(&self) -> Attitude {
-        self.axes.unwrap_or(Attitude::IDENTITY)
+        let axes = self.axes.unwrap_or(Attitude::IDENTITY);
+        Numbers::new(self.moments, self.rate.into(), self.time, self.attitude.components()).about(axes)
     }
 
     /// Whether the attitude and the moments are those of the question only to rounding.

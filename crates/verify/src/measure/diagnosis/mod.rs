@@ -27,6 +27,9 @@ pub(crate) use self::hypotheses::Numbers;
 /// The number of launches of coins that a diagnosis asks for, and as many of other bodies.
 const LAUNCHES: u64 = 1000;
 
+/// What these are called.
+const KINDS: [&str; 2] = ["launches", "launches of bodies with three moments"];
+
 /// Of the launches one in so many says whether a solver is right, before it is measured: a prime number, so that launches of
 /// every kind are among them.
 const ONE_IN: usize = 7;
@@ -70,13 +73,13 @@ pub(crate) struct Asked {
     toss: Toss,
     /// The question as the solver got it.
     question: String,
-    /// The numbers of the question, about axes from which `axes` leads to BF.
     numbers: Numbers,
-    axes: Attitude,
     /// The answer as it was written, if it wrote any.
     line: Option<String>,
     /// The quaternion from BF to LF that was answered, or why there is none.
     answer: Result<[f64; 4], String>,
+    /// Whether there is no answer because it took too long.
+    is_late: bool,
     allowed: Allowance,
     exact: Reference,
 }
@@ -138,8 +141,13 @@ impl Asked {
         answer: Result<[f64; 4], String>,
         allowed: Allowance,
     ) -> Option<Self> {
-        let (numbers, axes, exact) = (in_numbers.numbers(), in_numbers.axes(), Reference::of(toss).ok()?);
-        Some(Self { toss: *toss, question, numbers, axes, line, answer, allowed, exact })
+        let (numbers, exact) = (in_numbers.numbers(), Reference::of(toss).ok()?);
+        Some(Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact })
+    }
+
+    /// The same launch, whose answer took too long if `is_late`.
+    pub(crate) fn late(self, is_late: bool) -> Self {
+        Self { is_late, ..self }
     }
 
     /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
@@ -156,6 +164,16 @@ impl Asked {
         self.errors().is_some_and(|[part, _]| part <= 1.0)
     }
 
+    /// Whether it is no fault that there is no answer.
+    fn is_declined(&self) -> bool {
+        self.answer.is_err() && !self.is_late && any_launch::may_be_declined(&self.toss)
+    }
+
+    /// Whether it was asked, and not only given up before.
+    fn is_asked(&self) -> bool {
+        !self.answer.as_ref().is_err_and(|why| why.contains(GIVEN_UP))
+    }
+
     fn is_right(&self) -> bool {
         let has_norm = |answer: &[f64; 4]| {
             let off = self.exact.cos_tilt_error(cos_tilt_as_answered(*answer));
@@ -169,7 +187,7 @@ impl Asked {
         let asked = (hypothesis.ask)(self.numbers);
         let right = || {
             let answer = Attitude::from_components(*self.answer.as_ref().ok()?).ok()?;
-            let answer = (hypothesis.read)(&self.numbers, (answer * self.axes).components());
+            let answer = (hypothesis.read)(&self.numbers, (answer * self.numbers.axes).components());
             Attitude::from_components(answer).ok()
         };
         let answer = right();
@@ -224,11 +242,10 @@ pub(crate) fn of_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<D
     Ok(of(0).or_else(|| of(1)))
 }
 
-/// The same of a solver that is wrong on a few launches, by these alone if a cause explains them.
-pub(crate) fn of_wrong_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
+/// The same by some of these launches.
+pub(crate) fn of_some(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
     let launches = launches()?;
-    let found = (0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask));
-    if found.as_ref().is_none_or(|found| found.explains_all) { Ok(found) } else { of_solver(subject, ask) }
+    Ok((0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask)))
 }
 
 /// By its answers to one in so many launches of a kind.
@@ -244,7 +261,7 @@ fn of_kind(
     // What is wrong for coins may be told apart by bodies.
     let also = kind == 0 && !asked.iter().all(Asked::is_right);
     let also = if also { some_of(&launches[1], ONE_IN, tolerance, ask) } else { Vec::new() };
-    diagnosis(subject, asked, &also)
+    diagnosis(subject, KINDS[kind], asked, &also)
 }
 
 /// The launches of which a diagnosis is made: of coins, and of other bodies.
@@ -258,31 +275,33 @@ fn some_of(launches: &[Toss], one_in: usize, tolerance: f64, ask: &Ask<'_>) -> V
     launches.par_iter().step_by(one_in).filter_map(asked).collect()
 }
 
-/// The likeliest cause of the wrong answers of `subject`; `None` if all are right. Of two causes that explain the same
+/// The likeliest cause of the wrong answers of `subject` to launches of this kind; `None` if all are right. Of two causes that explain the same
 /// answers, that which explains more of what it answered `also` is likelier.
-fn diagnosis(subject: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
-    let is_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
-    asked.retain(|one| is_silent || one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
+fn diagnosis(subject: &str, kind: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
+    // Of what came after a program was given up nothing is known.
+    if asked.iter().any(Asked::is_asked) {
+        asked.retain(Asked::is_asked);
+    }
+    let is_mostly_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
+    asked.retain(|one| is_mostly_silent || !one.is_declined());
     let wrong: Vec<&Asked> = asked.iter().filter(|one| !one.is_right()).collect();
     let silent = wrong.iter().filter(|one| one.answer.is_err()).count();
     if wrong.is_empty() {
         return None;
     }
-    let unanswered = |is_it: bool| is_it.then(|| no_answer(&asked));
+    let is_silent = is_mostly_silent || silent == wrong.len();
     // A few wrong answers are rather those of some launches than of a rough solver.
     let is_rare = wrong.len() * 10 < asked.len();
-    let cause = unanswered(silent * 2 > asked.len())
-        .or_else(|| if is_rare { split(&asked) } else { None })
-        .or_else(|| unanswered(silent == wrong.len()))
+    let cause = (if is_rare || is_silent { split(&asked) } else { None })
+        .or_else(|| is_silent.then(|| no_answer(kind, &asked)))
         .or_else(|| without_norm(&asked))
         .or_else(|| rough(&asked))
         .or_else(|| mistake(&asked, also))
         .or_else(|| split(&asked));
     let unknown = || {
         let (wrong, all, known) = (wrong.len(), asked.len(), HYPOTHESES.len());
-        let words = format!(
-            "wrong in {wrong} of {all} launches, for a reason that none of the {known} known mistakes explains"
-        );
+        let words =
+            format!("wrong in {wrong} of {all} {kind}, for a reason that none of the {known} known mistakes explains");
         Cause::unexplained(words, &asked)
     };
     let Cause { words, explains } = cause.unwrap_or_else(unknown);
@@ -330,16 +349,24 @@ fn count(explains: &[Option<bool>]) -> usize {
     explains.iter().filter(|explained| **explained == Some(true)).count()
 }
 
-/// The most frequent reason why there is no answer.
-fn no_answer(asked: &[Asked]) -> Cause {
+/// Answers that are missing: the cause of nothing but all of them.
+fn no_answer(kind: &str, asked: &[Asked]) -> Cause {
+    let (reason, silent) = most_frequent_reason(asked);
+    if silent == asked.len() {
+        let words = format!("no answer to any of the {kind}: {reason}");
+        return Cause { words, explains: vec![Some(true); silent] };
+    }
+    Cause::unexplained(format!("no answer to {silent} of {} {kind}: {reason}", asked.len()), asked)
+}
+
+/// The most frequent reason why there is no answer, and to how many launches there is none.
+fn most_frequent_reason(asked: &[Asked]) -> (&str, usize) {
     let reasons = asked.iter().filter_map(|one| one.answer.as_ref().err());
     // A program that is given up says of all launches that follow what it did.
     let mut reasons: Vec<&str> = reasons.map(|why| why.strip_prefix(GIVEN_UP).unwrap_or(why)).collect();
     reasons.sort_unstable();
     let most = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
-    let reason = most.and_then(|same| same.first()).copied().unwrap_or_default();
-    let words = format!("no answer to {} of {} launches: {reason}", reasons.len(), asked.len());
-    Cause { words, explains: asked.iter().map(|one| Some(one.answer.is_err() || one.is_right())).collect() }
+    (most.map_or("", |same| same[0]), reasons.len())
 }
 
 /// A known mistake that explains nearly all answers, the wrong and the right ones.
@@ -406,12 +433,12 @@ const FEATURES: [Feature; 18] = [
     Feature("i3/i2", |_, of| of.moments[2] / of.moments[1]),
     Feature("the smallest moment divided by the largest", |_, of| of.thinness()),
     Feature("2 T I/S² (energy T, angular momentum S, middle moment I)", |_, of| of.side_of_the_separatrix()),
+    Feature("the time", |_, of| of.time),
     Feature("the phase (rad)", |toss, _| Phases::new(toss).map_or(f64::INFINITY, |phases| phases.largest)),
     Feature("the tilt at launch (rad)", |_, of| {
         let [w, x, y, z] = of.attitude;
         2.0 * x.hypot(y).atan2(w.hypot(z))
     }),
-    Feature("the time", |_, of| of.time),
     Feature("the largest component of the rate", |_, of| nalgebra::Vector3::from(of.rate).amax()),
     Feature("i1", |_, of| of.moments[0]),
     Feature("w", |_, of| of.attitude[0]),
@@ -425,8 +452,8 @@ const FEATURES: [Feature; 18] = [
 ];
 
 /// The fewest answers on the side of a bound on which all are right, and on the other one. More than the former have no time
-/// of flight, in which every solver is right.
-const SIDES: [usize; 2] = [50, 5];
+/// of flight, in which every solver is right. The latter would by chance be the last of a thousand in one of 10^7 cases.
+const SIDES: [usize; 2] = [50, 3];
 
 /// The part of the answers on the other side of a bound that has to be wrong.
 const RULED_OUT: f64 = 0.75;
@@ -467,7 +494,12 @@ fn split(asked: &[Asked]) -> Option<Cause> {
             }
         }
     }
-    best.map(|(_, words)| Cause::unexplained(words, asked))
+    let (_, mut words) = best?;
+    let (reason, silent) = most_frequent_reason(asked);
+    if silent > 0 && silent == asked.iter().filter(|one| !one.is_right()).count() {
+        words += &format!("; no answer there: {reason}");
+    }
+    Some(Cause::unexplained(words, asked))
 }
 
 /// The number from `low` to `high` with the fewest digits.

@@ -4,7 +4,9 @@
 use std::f64::consts::PI;
 
 use super::*;
+use dynamics::Body;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use toss::{ExactSolver, Landing, SolveError, Solver};
 
 type Q = Quaternion<f64>;
 
@@ -30,6 +32,11 @@ fn momentum(row: &Row) -> Vector3<f64> {
 
 fn spin(row: &Row) -> Vector3<f64> {
     Vector3::new(0.0, 0.0, (1.0 - row.i3 / row.i1) * row.rate.z * row.time)
+}
+
+/// The larger one of the angles of the two turns (rad).
+fn phase(row: &Row) -> f64 {
+    momentum(row).norm().max(spin(row).norm())
 }
 
 fn right(row: &Row) -> Q {
@@ -107,7 +114,7 @@ fn told(answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosis> {
 /// The same at an allowed error of cos θ, which is multiplied by 1 + φ.
 fn told_within(error: f64, answer: impl Fn(&Row) -> [f64; 4]) -> Option<Diagnosis> {
     let [coins, _] = launches().unwrap();
-    diagnosis("mine", coins.iter().filter_map(|toss| asked(toss, error, &answer)).collect(), &[])
+    diagnosis("mine", KINDS[0], coins.iter().filter_map(|toss| asked(toss, error, &answer)).collect(), &[])
 }
 
 /// The same of a program that takes bodies.
@@ -170,7 +177,7 @@ fn each_mistake_is_found_and_named() {
         ("all moments are equal: it ignores them", |row| components(row.launched * turn(row.rate * row.time))),
         ("its quaternion is divided by its norm", |row| components(right(row) * 3.0)),
         ("its quaternion is divided by its norm: 1000 of 1000", |row| {
-            components(right(row) * (1.0 + 1e-5 * momentum(row).norm().max(spin(row).norm())))
+            components(right(row) * (1.0 + 1e-5 * phase(row)))
         }),
         ("in turns per 60 units of time", |row| components(right(&Row { rate: row.rate * PI / 30.0, ..*row }))),
         ("the time is given to it in thousandths", |row| components(right(&Row { time: row.time / 1000.0, ..*row }))),
@@ -186,7 +193,7 @@ fn each_mistake_is_found_and_named() {
             components(if is_level { right(row) } else { right(row) * turn(Vector3::new(1.0, 0.3, 0.0)) })
         }),
         ("right only where the phase (rad) < 20: ", |row| {
-            let off = if momentum(row).norm().max(spin(row).norm()) > 20.0 { 0.1 } else { 0.0 };
+            let off = if phase(row) > 20.0 { 0.1 } else { 0.0 };
             components(right(row) * turn(Vector3::new(off, 0.0, 0.0)))
         }),
     ];
@@ -241,6 +248,34 @@ fn each_mistake_with_three_moments_is_found_and_named() {
     assert_eq!(told_of_bodies(|row| flown(row, moments(row), euler)), None);
 }
 
+/// Only a solver in Rust is given products of inertia. Here it flies another body.
+#[test]
+fn a_solver_that_ignores_products_of_inertia_or_their_axes_is_told_so() {
+    struct Flies(fn(&Body) -> [f64; 3]);
+    impl Solver for Flies {
+        fn name(&self) -> &str {
+            "flies"
+        }
+        fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+            let body = Body::from_moments(toss.body.moments().unwrap_or_else(|| self.0(&toss.body))).unwrap();
+            ExactSolver.land(&Toss { body, ..*toss })
+        }
+    }
+    let told = |moments| {
+        let entry = SolverEntry::new("flies", "", move |_| Box::new(Flies(moments)));
+        of_entry(&entry, &|_| true).unwrap().pop().map(|found| (found.cause, found.explains_all))
+    };
+    let cause = |words: &str| Some((format!("right if {words}: 1000 of 1000"), true));
+    assert_eq!(
+        told(|body| [0, 1, 2].map(|axis| body.tensor()[axis][axis])),
+        cause("the products of inertia are 0: it ignores them")
+    );
+    assert_eq!(
+        told(Body::principal_moments),
+        cause("x, y and z are the principal axes: it turns neither rate nor attitude")
+    );
+}
+
 #[test]
 fn a_solver_that_is_right_up_to_a_looser_tolerance_is_told_which_one() {
     for (steps, tolerance) in [(2.0, "5e-5"), (10.0, "1e-7")] {
@@ -257,7 +292,7 @@ fn a_rare_mistake_is_told_by_the_launches_without_it() {
     type Mistake = (&'static str, fn(&Row) -> bool);
     let mistakes: [Mistake; 3] = [
         ("right only where k = i3/i1 > 0", |row| row.i3 == 0.0),
-        ("right only where the phase (rad) < 1000", |row| momentum(row).norm().max(spin(row).norm()) > 1e3),
+        ("right only where the phase (rad) < 1000", |row| phase(row) > 1e3),
         ("right only where w ≥ 0: ", |row| row.launched.w < 0.0),
     ];
     for (cause, is_wrong) in mistakes {
@@ -307,8 +342,38 @@ fn a_solver_without_answers_is_told_why() {
         let why = if index == 0 { "ended" } else { "is no longer asked: it ended" };
         Asked { answer: Err(why.to_owned()), ..asked(toss, 1e-9, &|row| components(right(row))).unwrap() }
     };
-    let found = diagnosis("mine", launches.iter().enumerate().map(asked).collect(), &[]).unwrap();
-    assert!(found.cause.starts_with("no answer to ") && found.cause.ends_with(" of 1000 launches: ended"), "{found:?}");
+    let found = diagnosis("mine", KINDS[0], launches.iter().enumerate().map(asked).collect(), &[]).unwrap();
+    assert!(found.explains_all && found.cause == "no answer to any of the launches: ended", "{found:?}");
+}
+
+/// What a program does not answer is told like what it answers wrong, also if it is given up after some such launches.
+#[test]
+fn launches_without_an_answer_are_told_from_the_others() {
+    type Mistake = (&'static str, &'static str, fn(&Row) -> bool);
+    let mistakes: [Mistake; 5] = [
+        ("k = i3/i1 > 0", "969 of 969, elsewhere 0 of 31", |row| row.i3 == 0.0),
+        ("w ≥ 0", "527 of 527, elsewhere 0 of 473", |row| row.launched.w < 0.0),
+        ("the time > 0", "977 of 977, elsewhere 0 of 23", |row| row.time == 0.0),
+        ("the phase (rad) < 100", "892 of 892, elsewhere 0 of 108", |row| phase(row) > 100.0),
+        ("the phase (rad) < 1000", "988 of 988, elsewhere 0 of 12", |row| phase(row) > 1e3),
+    ];
+    let [coins, _] = launches().unwrap();
+    for (bound, numbers, is_silent) in mistakes {
+        let answer = |row: &Row| if is_silent(row) { [f64::NAN; 4] } else { components(right(row)) };
+        let told = |most: usize| {
+            let mut silent = 0;
+            let once = |toss: &Toss| {
+                let one = asked(toss, 1e-7, &answer)?;
+                silent += usize::from(one.answer.is_err());
+                let given_up = Err(format!("{GIVEN_UP}hangs"));
+                Some(Asked { answer: if silent > most { given_up } else { one.answer }, ..one }.late(true))
+            };
+            diagnosis("mine", KINDS[0], coins.iter().filter_map(once).collect(), &[]).unwrap().cause
+        };
+        assert_eq!(told(usize::MAX), format!("right only where {bound}: {numbers}; no answer there: declined"));
+        let of_few = told(4);
+        assert!(of_few.starts_with(&format!("right only where {bound}: ")) && of_few.contains(" of 4; no"), "{of_few}");
+    }
 }
 
 #[test]
