@@ -65,7 +65,7 @@ pub fn run(
     for (index, check) in checks.iter().enumerate() {
         start(check);
         let clock = Clock::start(check, context, factor);
-        // It fails if the thread has ended, as which no result comes.
+        // An error means that the thread has ended, and then no result comes, either.
         let _ = begin.send(());
         let result = loop {
             match receiver.recv_timeout(LOOK) {

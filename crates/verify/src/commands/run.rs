@@ -224,7 +224,7 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());
     let mut table = text::runs(&runs);
-    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
+    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control), &context.exact)) {
         table += &diagnosis::example(&asked.example());
     }
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {

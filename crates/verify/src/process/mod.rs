@@ -18,7 +18,9 @@ use dynamics::{Fault, Flight, ForeignError, Phases};
 use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
 use crate::measure::diagnosis::{Asked, NORMS, cos_tilt_as_answered};
+use crate::measure::exact_landings::ExactLandings;
 use crate::measure::run::Allowance;
+use crate::shown::shown;
 use pool::{Exchange, Pool};
 use protocol::Landed;
 
@@ -33,7 +35,6 @@ pub const OWN: Scheme = Scheme::new("own", None).adaptive();
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
     command: String,
-    summary: String,
     claim: Option<Claim>,
     takes_bodies: bool,
     limits: Limits,
@@ -107,14 +108,7 @@ impl Program {
     /// judged by the error that this tolerance [permits](Stepping::error_estimate), or by an error that it gives with
     /// its answers.
     pub fn new(command: impl Into<String>) -> Self {
-        let command = command.into();
-        Self {
-            summary: format!("the program `{command}`"),
-            command,
-            claim: None,
-            takes_bodies: false,
-            limits: Limits::default(),
-        }
+        Self { command: command.into(), claim: None, takes_bodies: false, limits: Limits::default() }
     }
 
     /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
@@ -128,12 +122,6 @@ impl Program {
     #[must_use]
     pub fn with_bodies(self) -> Self {
         Self { takes_bodies: true, ..self }
-    }
-
-    /// The same program, about which its entry says this in one line; without it, its command line.
-    #[must_use]
-    pub fn with_summary(self, summary: impl Into<String>) -> Self {
-        Self { summary: summary.into(), ..self }
     }
 
     /// The same program within other limits.
@@ -164,7 +152,8 @@ pub(crate) struct Running {
 impl Running {
     pub(crate) fn entry(&self) -> SolverEntry {
         let (running, is_claimed) = (self.clone(), self.program.claim.is_some());
-        let entry = SolverEntry::new(self.name, self.program.summary.clone(), move |settings| {
+        let summary = format!("the program `{}`", shown(&self.program.command));
+        let entry = SolverEntry::new(self.name, summary, move |settings| {
             Box::new(ByProgram { running: running.clone(), stepping: settings.stepping })
         });
         if is_claimed { entry } else { entry.with_schemes(&[OWN]) }
@@ -185,12 +174,13 @@ impl Running {
     }
 
     /// What the program answers to `toss` at a tolerance, with its question as it got it, and what it is allowed.
-    pub(crate) fn asked(&self, toss: &Toss, tolerance: f64) -> Option<Asked> {
+    pub(crate) fn asked(&self, toss: &Toss, tolerance: f64, known: &ExactLandings) -> Option<Asked> {
         let stepping = Stepping::adaptive(OWN, tolerance).ok()?;
         let solver = ByProgram { running: self.clone(), stepping };
         if toss.coin().is_none() && !solver.takes_bodies() {
             return None;
         }
+        let exact = known.of(toss)?;
         let (question, exchange) = solver.exchange(toss).ok()?;
         let answered = exchange.reply.as_ref().ok();
         let allowed = match answered {
@@ -202,7 +192,7 @@ impl Running {
             _ => Err("answered a quaternion that is not finite".to_owned()),
         });
         let as_got = format!("{HEADER}\n{}", exchange.question);
-        Some(Asked::new(toss, as_got, &question, exchange.line, answer, allowed)?.late(exchange.is_late))
+        Some(Asked::new(toss, as_got, &question, exchange.line, answer, allowed, exact).late(exchange.is_late))
     }
 }
 
@@ -213,15 +203,14 @@ struct ByProgram {
 
 impl ByProgram {
     fn exchange(&self, toss: &Toss) -> Result<(Question, Exchange), SolveError> {
-        let flight = Flight::new(toss)?;
         let tolerance = match (self.running.program.claim, self.stepping.control()) {
             (Some(claim), _) => claim.error,
-            (None, StepControl::Tolerance(tolerance)) => flight.tightened(tolerance),
+            (None, StepControl::Tolerance(tolerance)) => Flight::new(toss)?.tightened(tolerance),
             (None, StepControl::Step(_)) => {
                 return Err(SolveError::NotOffered { scheme: self.stepping.scheme().name() });
             }
         };
-        let question = Question::new(toss, &flight, tolerance);
+        let question = Question::new(toss, tolerance);
         let exchange = self.running.pool.ask(&question.line());
         Ok((question, exchange))
     }

@@ -251,14 +251,14 @@ impl Suite {
     fn wrong_program(&self, context: &Context, show: &dyn Fn(Progress<'_>)) -> anyhow::Result<Option<Diagnosis>> {
         let (Some(program), Some(subject)) = (&self.program, context.subjects.first()) else { return Ok(None) };
         show(Progress::Diagnoses);
-        let found = diagnosis::of_some(&subject.name, &|toss, by| program.asked(toss, by))?;
+        let found = diagnosis::of_some(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?;
         if found.as_ref().is_none_or(|found| found.explains_all) {
             return Ok(found);
         }
         // One that hangs would else be given up before it is known where.
         let is_silent = found.as_ref().is_some_and(|found| found.without_answer > 0);
         let program = if is_silent { program.impatient() } else { program.clone() };
-        Ok(diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by))?.or(found))
+        Ok(diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?.or(found))
     }
 
     /// What solvers with failing rows most likely do wrong. Of a program that was known to be wrong `early`, it is that.
@@ -280,12 +280,12 @@ impl Suite {
         if let (Some(program), Some(subject)) = (&self.program, context.subjects.first()) {
             let program = if program.is_given_up() { program.impatient() } else { program.clone() };
             let found = match early {
-                None => diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by))?,
+                None => diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?,
                 early => early,
             };
             return Ok(found.into_iter().collect());
         }
-        let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails));
+        let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails, &context.exact));
         Ok(of_entries.collect::<anyhow::Result<Vec<_>>>()?.concat())
     }
 

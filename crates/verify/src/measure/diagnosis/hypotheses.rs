@@ -134,9 +134,8 @@ impl Numbers {
 
     /// Rate and attitude in BF, with the moments where they are.
     fn in_body(&self) -> Self {
-        let back = quaternion(self.axes.components()).conjugate();
         let rate = self.axes.body_to_lab(&self.rate.into()).into();
-        Self { rate, attitude: components(self.launched() * back), ..*self }
+        Self { rate, attitude: turned_back(self.attitude, self.axes), ..*self }
     }
 
     /// The moments about x, y and z of BF.
@@ -325,9 +324,14 @@ fn with_kinematics(numbers: Numbers, times: f64) -> Numbers {
     numbers.with_rate(times).with_torques([1.0 / times; 3])
 }
 
+/// A quaternion that leads from BF, if `attitude` leads from axes that `axes` turns to BF.
+pub(crate) fn turned_back(attitude: [f64; 4], axes: Attitude) -> [f64; 4] {
+    components(quaternion(attitude) * quaternion(axes.components()).conjugate())
+}
+
 /// An answer in BF, as a solver has it that is given a tensor.
 fn in_body(numbers: &Numbers, answer: [f64; 4]) -> [f64; 4] {
-    components(quaternion(answer) * quaternion(numbers.axes.components()).conjugate())
+    turned_back(answer, numbers.axes)
 }
 
 fn as_scalar_last(numbers: Numbers) -> Numbers {

@@ -1,14 +1,16 @@
 //! What a wrong solver most likely does, told from its answers to launches of every kind: a known mistake that explains
-//! them, an error that is merely larger than allowed, or the launches on which alone it is right. If none of these explains
-//! all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a conjecture from
-//! these launches, and is told with how many of them it explains. Other bodies are asked for once coins are right.
+//! them, an error that is merely larger than allowed, or the launches on which alone it is right, or answers. If none of
+//! these explains all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a
+//! conjecture from these launches, and is told with how many of them it explains. Other bodies are asked for once coins are
+//! right.
 
 mod hypotheses;
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use dynamics::{Flight, Phases, Toss};
+use dynamics::{Phases, Toss};
 use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Attitude, SolverEntry};
@@ -16,13 +18,14 @@ use toss::{Attitude, SolverEntry};
 use self::hypotheses::{HYPOTHESES, Hypothesis};
 use super::any_launch;
 use super::case;
+use super::exact_landings::ExactLandings;
 use super::reference::Reference;
 use super::run::Allowance;
 use super::subject::by_scheme;
 use crate::process::Question;
 use crate::shown::shown;
 
-pub(crate) use self::hypotheses::Numbers;
+pub(crate) use self::hypotheses::{Numbers, turned_back};
 
 /// The number of launches of coins that a diagnosis asks for, and as many of other bodies.
 const LAUNCHES: u64 = 1000;
@@ -81,7 +84,7 @@ pub(crate) struct Asked {
     /// Whether there is no answer because it took too long.
     is_late: bool,
     allowed: Allowance,
-    exact: Reference,
+    exact: Arc<Reference>,
 }
 
 /// What a wrong solver most likely does.
@@ -115,8 +118,14 @@ pub struct Example {
 }
 
 impl Asked {
-    /// What the solver of `entry` answers; `None` if it takes no such body.
-    fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, tolerance: f64, toss: &Toss) -> Option<Self> {
+    /// What the solver of `entry` answers; `None` as for [`Ask`].
+    fn of(
+        entry: &SolverEntry,
+        scheme: Option<toss::Scheme>,
+        tolerance: f64,
+        toss: &Toss,
+        known: &ExactLandings,
+    ) -> Option<Self> {
         let by = any_launch::subject(entry, scheme, tolerance, toss).ok()?;
         let landing = by.solver.land(toss);
         let (answer, estimate) = match &landing {
@@ -128,11 +137,10 @@ impl Asked {
         let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
         let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
         let question = case::text(toss) + &case::settings(&by);
-        let in_numbers = Question::new(toss, &Flight::new(toss).ok()?, any_launch::TOLERANCE);
-        Self::new(toss, question, &in_numbers, line, answer, allowed)
+        let in_numbers = Question::new(toss, any_launch::TOLERANCE);
+        Some(Self::new(toss, question, &in_numbers, line, answer, allowed, known.of(toss)?))
     }
 
-    /// `None` if there is no reference of the toss.
     pub(crate) fn new(
         toss: &Toss,
         question: String,
@@ -140,9 +148,10 @@ impl Asked {
         line: Option<String>,
         answer: Result<[f64; 4], String>,
         allowed: Allowance,
-    ) -> Option<Self> {
-        let (numbers, exact) = (in_numbers.numbers(), Reference::of(toss).ok()?);
-        Some(Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact })
+        exact: Arc<Reference>,
+    ) -> Self {
+        let numbers = in_numbers.numbers();
+        Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact }
     }
 
     /// The same launch, whose answer took too long if `is_late`.
@@ -220,19 +229,23 @@ impl Asked {
 }
 
 /// What the solver of `entry` most likely does wrong with each of its schemes, by those whose rows `fails` says to fail.
-pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> anyhow::Result<Vec<Diagnosis>> {
+pub(crate) fn of_entry(
+    entry: &SolverEntry,
+    fails: &dyn Fn(&str) -> bool,
+    known: &ExactLandings,
+) -> anyhow::Result<Vec<Diagnosis>> {
     let mut found = Vec::new();
     for (entry, scheme) in by_scheme(entry) {
         let Some(toss) = any_launch::tosses(1)?.pop() else { continue };
         let name = any_launch::subject(entry, scheme, TOLERANCES[0], &toss)?.name;
         if fails(&name) {
-            found.extend(of_solver(&name, &|toss, by| Asked::of(entry, scheme, by, toss))?);
+            found.extend(of_solver(&name, &|toss, by| Asked::of(entry, scheme, by, toss, known))?);
         }
     }
     Ok(found)
 }
 
-/// What a solver answers to a toss at a tolerance; `None` if it takes no such body.
+/// What a solver answers to a toss at a tolerance; `None` if it takes no such body, or there is no reference of it.
 type Ask<'a> = dyn Fn(&Toss, f64) -> Option<Asked> + Sync + 'a;
 
 /// What `subject` most likely does wrong, by what `ask` answers.
@@ -275,8 +288,8 @@ fn some_of(launches: &[Toss], one_in: usize, tolerance: f64, ask: &Ask<'_>) -> V
     launches.par_iter().step_by(one_in).filter_map(asked).collect()
 }
 
-/// The likeliest cause of the wrong answers of `subject` to launches of this kind; `None` if all are right. Of two causes that explain the same
-/// answers, that which explains more of what it answered `also` is likelier.
+/// The likeliest cause of the wrong answers of `subject` to launches of this kind; `None` if all are right. Of two causes
+/// that explain the same answers, that which explains more of what it answered `also` is likelier.
 fn diagnosis(subject: &str, kind: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
     // Of what came after a program was given up nothing is known.
     if asked.iter().any(Asked::is_asked) {
