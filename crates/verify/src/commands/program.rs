@@ -79,12 +79,7 @@ impl Foreign {
             total: self.total_seconds.unwrap_or(usual.total),
             memory: self.memory_mb.map_or(usual.memory, |megabytes| megabytes << 20),
         };
-        let program = Program::new(command).with_limits(limits);
-        let program = if self.bodies { program.with_bodies() } else { program };
-        Some(match self.claim {
-            Some(claim) => program.claiming(claim),
-            None => program,
-        })
+        Some(Program { claim: self.claim, takes_bodies: self.bodies, limits, ..Program::new(command) })
     }
 }
 

@@ -31,13 +31,19 @@ pub(crate) use protocol::Question;
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
 
-/// A program that computes where a toss lands, as a command line of the shell.
+/// A program that computes where a toss lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    command: String,
-    claim: Option<Claim>,
-    takes_bodies: bool,
-    limits: Limits,
+    /// The command line of the shell that starts it.
+    pub command: String,
+    /// What its entry says of it, in one line.
+    pub summary: String,
+    /// By what it is judged, in place of the tolerance; it is asked for no other tolerance than the number of the claim.
+    pub claim: Option<Claim>,
+    /// Whether it is asked for bodies with three moments, too. Else it is if one of its answers has the field `bodies=yes`.
+    pub takes_bodies: bool,
+    /// How long it may take and how much memory it may use.
+    pub limits: Limits,
 }
 
 /// An error of cos θ that a program claims for all tosses.
@@ -108,26 +114,9 @@ impl Program {
     /// judged by the error that this tolerance [permits](Stepping::error_estimate), or by an error that it gives with
     /// its answers.
     pub fn new(command: impl Into<String>) -> Self {
-        Self { command: command.into(), claim: None, takes_bodies: false, limits: Limits::default() }
-    }
-
-    /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
-    #[must_use]
-    pub fn claiming(self, claim: Claim) -> Self {
-        Self { claim: Some(claim), ..self }
-    }
-
-    /// The same program, which is asked for bodies with three moments, too. Without it, a program is asked for them if
-    /// one of its answers has the field `bodies=yes`.
-    #[must_use]
-    pub fn with_bodies(self) -> Self {
-        Self { takes_bodies: true, ..self }
-    }
-
-    /// The same program within other limits.
-    #[must_use]
-    pub fn with_limits(self, limits: Limits) -> Self {
-        Self { limits, ..self }
+        let command = command.into();
+        let summary = format!("the program `{}`", shown(&command));
+        Self { command, summary, claim: None, takes_bodies: false, limits: Limits::default() }
     }
 
     /// The program as an entry called `name`. Its processes are started when they are asked first, one for each thread
@@ -152,8 +141,7 @@ pub(crate) struct Running {
 impl Running {
     pub(crate) fn entry(&self) -> SolverEntry {
         let (running, is_claimed) = (self.clone(), self.program.claim.is_some());
-        let summary = format!("the program `{}`", shown(&self.program.command));
-        let entry = SolverEntry::new(self.name, summary, move |settings| {
+        let entry = SolverEntry::new(self.name, self.program.summary.clone(), move |settings| {
             Box::new(ByProgram { running: running.clone(), stepping: settings.stepping })
         });
         if is_claimed { entry } else { entry.with_schemes(&[OWN]) }
