@@ -49,7 +49,7 @@ const EXPLAINED: f64 = 0.95;
 /// A few wrong answers show which hypotheses are worth trying on all.
 const TRIED: usize = 24;
 
-/// An angle (rad) by which answers may differ from what a hypothesis says, beside ten times what is allowed.
+/// An angle (rad) that tells no answer from another, where less is allowed.
 const NEAR: f64 = 1e-6;
 
 /// The loosest tolerance that a solver may have which is right but for its accuracy (rad of error a rad of phase).
@@ -133,8 +133,8 @@ impl Asked {
             Err(error) if toss.coin().is_none() && error.kind() == "not_symmetric" => return None,
             Err(error) => (Err(error.to_string()), None),
         };
-        // Whoever states nothing is taken by a rough measure.
-        let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
+        // Whoever states nothing is taken by a rough measure. cos θ is that of the rounded quaternion.
+        let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR).max(ROUNDED));
         let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
         let question = case::text(toss) + &case::settings(&by);
         let in_numbers = Question::new(toss, any_launch::TOLERANCE);
@@ -191,6 +191,11 @@ impl Asked {
         self.is_right_in_direction() && self.answer.as_ref().is_ok_and(has_norm)
     }
 
+    /// The angle (rad) by which an answer may differ from what a hypothesis says.
+    fn near(&self) -> f64 {
+        10.0 * self.allowed.attitude.max(NEAR)
+    }
+
     /// Whether `hypothesis` explains the answer; `None` if it says nothing of this question.
     fn is_explained(&self, hypothesis: &Hypothesis) -> Option<bool> {
         let asked = (hypothesis.ask)(self.numbers);
@@ -201,7 +206,7 @@ impl Asked {
         };
         let answer = right();
         match asked.angle_to(&answer.unwrap_or(Attitude::IDENTITY)) {
-            Some(off) => Some(answer.is_some() && off <= 10.0 * self.allowed.attitude.max(NEAR)),
+            Some(off) => Some(answer.is_some() && off <= self.near()),
             // Numbers without a landing explain why there is no answer.
             None => self.answer.is_err().then_some(true),
         }
@@ -385,7 +390,9 @@ fn most_frequent_reason(asked: &[Asked]) -> (&str, usize) {
 /// A known mistake that explains nearly all answers, the wrong and the right ones.
 fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
     let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
-    let wrong: Vec<&Asked> = answered.iter().copied().filter(|one| !one.is_right()).collect();
+    // An answer that is nearly right is explained by every hypothesis that changes nothing there.
+    let is_far = |one: &&Asked| one.errors().is_none_or(|[_, angle]| angle > one.near());
+    let wrong: Vec<&Asked> = answered.iter().copied().filter(is_far).collect();
     let few: Vec<&Asked> = wrong.iter().copied().step_by((wrong.len() / TRIED).max(1)).collect();
     let also: Vec<&Asked> = also.iter().collect();
     let share = |hypothesis: &Hypothesis, on: &[&Asked]| {
