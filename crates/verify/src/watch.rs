@@ -1,9 +1,10 @@
 //! Runs checks one after the other on a thread of their own and watches them, so that a check that panics, cannot measure or never ends
 //! becomes a failing row instead of the end of the report.
 
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use crate::judge::Judge;
@@ -47,7 +48,8 @@ impl End {
 /// What the thread of the checks sends after each.
 type Sent = std::thread::Result<anyhow::Result<Vec<Measurement>>>;
 
-/// Runs `checks` with all time limits multiplied by `factor`. `start` is called before each, `end` after it.
+/// Runs `checks` with all time limits multiplied by `factor`. `start` is called before each, `end` after it; it may end the
+/// run.
 ///
 /// A check that is hopeless is left behind: its thread goes on until the program ends, and no check comes after it.
 pub fn run(
@@ -55,14 +57,16 @@ pub fn run(
     context: &Arc<Context>,
     factor: f64,
     mut start: impl FnMut(&Check),
-    mut end: impl FnMut(&Check, Timing, End) -> anyhow::Result<()>,
+    mut end: impl FnMut(&Check, Timing, End) -> anyhow::Result<ControlFlow<()>>,
 ) -> anyhow::Result<()> {
-    let (sender, receiver) = channel();
+    let ((sender, receiver), (begin, begins)) = (channel(), channel());
     let (mine, of_thread) = (Arc::clone(context), checks.to_vec());
-    std::thread::Builder::new().stack_size(STACK).spawn(move || measure(&of_thread, &mine, &sender))?;
+    std::thread::Builder::new().stack_size(STACK).spawn(move || measure(&of_thread, &mine, &begins, &sender))?;
     for (index, check) in checks.iter().enumerate() {
         start(check);
         let clock = Clock::start(check, context, factor);
+        // An error means that the thread has ended, and then no result comes, either.
+        let _ = begin.send(());
         let result = loop {
             match receiver.recv_timeout(LOOK) {
                 Ok(result) => break Some(result),
@@ -71,24 +75,26 @@ pub fn run(
             }
         };
         let timing = clock.timing();
-        match result {
-            Some(Ok(Ok(measured))) => end(check, timing, End::Measured(measured))?,
-            Some(Ok(Err(error))) => end(check, timing, End::Failed(format!("could not measure: {error}")))?,
-            Some(Err(panic)) => end(check, timing, End::Failed(format!("panicked: {}", message(&*panic))))?,
+        let is_hopeless = result.is_none();
+        let found = match result {
+            Some(Ok(Ok(measured))) => End::Measured(measured),
+            Some(Ok(Err(error))) => End::Failed(format!("could not measure: {error}")),
+            Some(Err(panic)) => End::Failed(format!("panicked: {}", message(&*panic))),
             None => {
-                let left = checks.len() - index - 1;
-                let taken = timing.t_wall_s;
-                let failure = format!("did not end within {taken:.0} s; the {left} checks after it were not run");
-                return end(check, timing, End::Failed(failure));
+                let (left, taken) = (checks.len() - index - 1, timing.t_wall_s);
+                End::Failed(format!("did not end within {taken:.0} s; the {left} checks after it were not run"))
             }
+        };
+        if end(check, timing, found)?.is_break() || is_hopeless {
+            break;
         }
     }
     Ok(())
 }
 
-/// Measures all of `checks`, until nobody receives the results.
-fn measure(checks: &[&'static Check], context: &Context, sender: &Sender<Sent>) {
-    for check in checks {
+/// Measures `checks`, each when it is told to begin, until nobody receives the results.
+fn measure(checks: &[&'static Check], context: &Context, begins: &Receiver<()>, sender: &Sender<Sent>) {
+    for (check, ()) in checks.iter().zip(begins) {
         let result = catch_unwind(AssertUnwindSafe(|| check.measure(context)));
         if sender.send(result).is_err() {
             return;

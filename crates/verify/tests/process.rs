@@ -22,13 +22,17 @@ const SHORT: Limits = Limits { answer: Duration::from_millis(500), total: Durati
 const PATIENT: Limits = Limits { answer: Duration::from_secs(30), total: Duration::from_secs(120), memory: 200 << 20 };
 
 /// The program of `command`, which answers each question.
+fn program(command: &str) -> Program {
+    Program { limits: PATIENT, ..Program::new(command) }
+}
+
 fn entry(command: &str) -> SolverEntry {
-    Program::new(command).with_limits(PATIENT).entry("program")
+    program(command).entry("program")
 }
 
 /// The program of `command`, which hangs.
 fn hanging(command: &str) -> SolverEntry {
-    Program::new(command).with_limits(SHORT).entry("program")
+    Program { limits: SHORT, ..Program::new(command) }.entry("program")
 }
 
 /// The solver of `entry` at a tolerance of 1e-10.
@@ -169,7 +173,7 @@ fn a_question_that_took_too_long_is_asked_once_more() {
 #[test]
 fn a_program_that_takes_too_much_memory_from_the_start_is_ended() {
     let limits = Limits { memory: 1 << 18, ..PATIENT };
-    let solver = made(&Program::new(answering("echo $id,$w,$x,$y,$z")).with_limits(limits).entry("program"));
+    let solver = made(&Program { limits, ..program(&answering("echo $id,$w,$x,$y,$z")) }.entry("program"));
     let error = solver.land(&toss(1.0)).unwrap_err().to_string();
     assert!(error.contains("of memory, and 0 MB are its limit"), "{error}");
 }
@@ -182,8 +186,8 @@ fn bodies_are_asked_for_by_an_option_or_by_the_answer() {
     let tosses = bodies.map(|inertia| Toss { body: toss::Body::from_inertia(inertia).unwrap(), launch });
     let coins_alone = made(&entry(&answering("echo $id,$w,$x,$y,$z")));
     let says_so = made(&entry(&answering("echo \"$id,$w,$x,$y,$z,bodies=yes,rate=$a;$b;$c\"")));
-    let by_option = Program::new(answering("echo $id,$w,$x,$y,$z")).with_limits(PATIENT).with_bodies().entry("program");
-    let by_option = made(&by_option);
+    let by_option = Program { takes_bodies: true, ..program(&answering("echo $id,$w,$x,$y,$z")) };
+    let by_option = made(&by_option.entry("program"));
     for toss in tosses {
         assert_eq!(coins_alone.land(&toss).unwrap_err().kind(), "not_symmetric");
         for solver in [&says_so, &by_option] {
@@ -197,9 +201,9 @@ fn bodies_are_asked_for_by_an_option_or_by_the_answer() {
 #[test]
 fn a_claim_is_flat_or_by_the_radian() {
     let land = |claim: &str, time| {
-        let program = Program::new(answering("echo $id,$w,$x,$y,$z")).with_limits(PATIENT);
-        let claim: Claim = claim.parse().unwrap();
-        made(&program.claiming(claim).entry("program")).land(&toss(time)).unwrap().error.unwrap()
+        let claim = Some(claim.parse().unwrap());
+        let program = Program { claim, ..program(&answering("echo $id,$w,$x,$y,$z")) };
+        made(&program.entry("program")).land(&toss(time)).unwrap().error.unwrap()
     };
     assert_eq!((land("1e-9", 1.0), land("1e-9", 9.0)), (1e-9, 1e-9));
     let phase = dynamics::Phases::new(&toss(9.0)).unwrap().largest;
@@ -224,7 +228,7 @@ fn a_line_too_many_is_noticed_and_not_taken_for_an_answer() {
 fn the_limit_of_all_answers_ends_a_slow_program() {
     let slow = answering("sleep 0.4; echo $id,$w,$x,$y,$z");
     let limits = Limits { total: Duration::from_secs(3), ..PATIENT };
-    let solver = made(&Program::new(slow).with_limits(limits).entry("program"));
+    let solver = made(&Program { limits, ..Program::new(slow) }.entry("program"));
     let found = landings(&*solver, 12);
     assert!(found[0].is_ok());
     let error = found[11].as_ref().unwrap_err();
@@ -266,8 +270,7 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
     let own = made(&entry(&answering("echo $id,$w,$x,$y,$z,error=$tolerance,calls=7")));
     let landing = own.land(&toss).unwrap();
     assert_eq!((landing.error, landing.work.rhs_calls), (Some(1e-10), 7));
-    let claims =
-        Program::new(repeats.clone()).claiming(Claim::flat(0.25).unwrap()).with_limits(PATIENT).entry("program");
+    let claims = Program { claim: Claim::flat(0.25).ok(), ..program(&repeats) }.entry("program");
     assert!(!claims.integrates());
     let claims = made(&claims);
     assert_eq!((claims.land(&toss).unwrap().error, claims.stepping()), (Some(0.25), None));

@@ -22,8 +22,8 @@ pub fn entry(folder: &Path) -> Result<SolverEntry, String> {
 pub fn named(command: &str) -> SolverEntry {
     // A long flight to a small tolerance takes a minute.
     let limits = Limits { answer: Duration::from_secs(30), total: Duration::from_secs(3600), ..Limits::default() };
-    let summary = "DOP853 of SciPy 1.17 in Python";
-    Program::new(command).with_summary(summary).with_limits(limits).entry("scipy").with_color([140, 86, 75])
+    let summary = "DOP853 of SciPy 1.17 in Python".to_owned();
+    Program { summary, limits, ..Program::new(command) }.entry("scipy").with_color([140, 86, 75])
 }
 
 /// A Python with SciPy: that of the system, or that of a virtual environment in `folder`, which is made if need be.

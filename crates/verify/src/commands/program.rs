@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::measure::replay::Commands;
 use crate::process::{Claim, Limits, Program};
-use crate::shown::{is_unseen, shown};
+use crate::shown::is_unseen;
 use crate::suite::Suite;
 use clap::Args;
 
@@ -79,13 +79,7 @@ impl Foreign {
             total: self.total_seconds.unwrap_or(usual.total),
             memory: self.memory_mb.map_or(usual.memory, |megabytes| megabytes << 20),
         };
-        let program = Program::new(command).with_summary(format!("the program `{}`", shown(command)));
-        let program = program.with_limits(limits);
-        let program = if self.bodies { program.with_bodies() } else { program };
-        Some(match self.claim {
-            Some(claim) => program.claiming(claim),
-            None => program,
-        })
+        Some(Program { claim: self.claim, takes_bodies: self.bodies, limits, ..Program::new(command) })
     }
 }
 

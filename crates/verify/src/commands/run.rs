@@ -224,7 +224,7 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());
     let mut table = text::runs(&runs);
-    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control))) {
+    if let Some(asked) = suite.program().and_then(|program| program.asked(toss, tolerance(*control), &context.exact)) {
         table += &diagnosis::example(&asked.example());
     }
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
@@ -248,14 +248,14 @@ fn tolerance(control: Option<StepControl>) -> f64 {
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.
 fn measure(suite: &Suite) -> anyhow::Result<Report> {
-    let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
+    let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})")?;
     let progress = ProgressBar::new(0).with_style(style);
     progress.enable_steady_tick(std::time::Duration::from_millis(100));
     let report = suite.run_showing(&|now| match now {
+        Progress::Diagnoses => progress.set_message("asking for launches of every kind, to find what is wrong"),
         Progress::Begins(check, number) => {
-            progress.set_length(number as u64);
             progress.inc(1);
-            progress.set_message(check.id);
+            progress.set_message(format!("check {} of {number}: {}", progress.position(), check.id));
         }
         Progress::Ended(rows, timing) => progress.suspend(|| files::say(&text::ended(rows, timing))),
         Progress::Wrong(found) => progress.suspend(|| files::say(&diagnosis::early(found))),

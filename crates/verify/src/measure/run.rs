@@ -140,6 +140,7 @@ impl Run {
         let (cos_tilt, attitude) = (number(self.err_cos_tilt), number(self.err_attitude));
         let of_allowed = match (self.answer, self.part) {
             (Answer::SilentlyWrong, Some(part)) if part > 1.0 => format!(", {part:.1e} times what its estimate allows"),
+            (Answer::Unclaimed, _) => format!(", and it claims no error, or one above {LARGEST_CLAIM:e}"),
             _ => String::new(),
         };
         format!("cos θ off by {cos_tilt:>7}, attitude by {attitude:>7} rad{of_allowed}")

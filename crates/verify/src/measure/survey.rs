@@ -63,14 +63,16 @@ impl Survey {
 
     /// Solves `tosses`, of these families, with every subject. A solver that refuses bodies has no landings of them.
     pub fn of(subjects: &[Subject], tosses: Vec<Toss>, families: Vec<&'static str>, exact: &ExactLandings) -> Self {
-        let exact = tosses.par_iter().map(|toss| exact.of(toss)).collect();
         let is_of_bodies = tosses.iter().any(|toss| toss.coin().is_none());
         let fly = |subject: &Subject| {
             let landings: Landings = tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect();
             let is_refused = |landing: &Result<_, _>| matches!(landing, Err(SolveError::NotSymmetric { .. }));
             if is_of_bodies && landings.iter().any(is_refused) { Vec::new() } else { landings }
         };
-        let landings = subjects.par_iter().map(fly).collect();
+        let landings: Vec<Landings> = subjects.par_iter().map(fly).collect();
+        // Where all refuse bodies, nothing is compared.
+        let is_flown = !is_of_bodies || subjects.is_empty() || landings.iter().any(|of_one| !of_one.is_empty());
+        let exact = tosses.par_iter().map(|toss| if is_flown { exact.of(toss) } else { None }).collect();
         Self { tosses, families, exact, landings }
     }
 }

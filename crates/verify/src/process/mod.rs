@@ -18,7 +18,9 @@ use dynamics::{Fault, Flight, ForeignError, Phases};
 use toss::{Attitude, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, StepControl, Stepping, Toss, Work};
 
 use crate::measure::diagnosis::{Asked, NORMS, cos_tilt_as_answered};
+use crate::measure::exact_landings::ExactLandings;
 use crate::measure::run::Allowance;
+use crate::shown::shown;
 use pool::{Exchange, Pool};
 use protocol::Landed;
 
@@ -29,14 +31,19 @@ pub(crate) use protocol::Question;
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
 
-/// A program that computes where a toss lands, as a command line of the shell.
+/// A program that computes where a toss lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    command: String,
-    summary: String,
-    claim: Option<Claim>,
-    takes_bodies: bool,
-    limits: Limits,
+    /// The command line of the shell that starts it.
+    pub command: String,
+    /// What its entry says of it, in one line.
+    pub summary: String,
+    /// By what it is judged, in place of the tolerance; it is asked for no other tolerance than the number of the claim.
+    pub claim: Option<Claim>,
+    /// Whether it is asked for bodies with three moments, too. Else it is if one of its answers has the field `bodies=yes`.
+    pub takes_bodies: bool,
+    /// How long it may take and how much memory it may use.
+    pub limits: Limits,
 }
 
 /// An error of cos θ that a program claims for all tosses.
@@ -108,38 +115,8 @@ impl Program {
     /// its answers.
     pub fn new(command: impl Into<String>) -> Self {
         let command = command.into();
-        Self {
-            summary: format!("the program `{command}`"),
-            command,
-            claim: None,
-            takes_bodies: false,
-            limits: Limits::default(),
-        }
-    }
-
-    /// The same program, which is judged by this claim, and asked for no other tolerance than its number.
-    #[must_use]
-    pub fn claiming(self, claim: Claim) -> Self {
-        Self { claim: Some(claim), ..self }
-    }
-
-    /// The same program, which is asked for bodies with three moments, too. Without it, a program is asked for them if
-    /// one of its answers has the field `bodies=yes`.
-    #[must_use]
-    pub fn with_bodies(self) -> Self {
-        Self { takes_bodies: true, ..self }
-    }
-
-    /// The same program, about which its entry says this in one line; without it, its command line.
-    #[must_use]
-    pub fn with_summary(self, summary: impl Into<String>) -> Self {
-        Self { summary: summary.into(), ..self }
-    }
-
-    /// The same program within other limits.
-    #[must_use]
-    pub fn with_limits(self, limits: Limits) -> Self {
-        Self { limits, ..self }
+        let summary = format!("the program `{}`", shown(&command));
+        Self { command, summary, claim: None, takes_bodies: false, limits: Limits::default() }
     }
 
     /// The program as an entry called `name`. Its processes are started when they are asked first, one for each thread
@@ -170,18 +147,28 @@ impl Running {
         if is_claimed { entry } else { entry.with_schemes(&[OWN]) }
     }
 
+    /// The same program in other processes, which are soon ended where it hangs, so that many questions show on which it does.
+    pub(crate) fn impatient(&self) -> Self {
+        Self { pool: Arc::new(self.pool.impatient()), ..self.clone() }
+    }
+
+    pub(crate) fn is_given_up(&self) -> bool {
+        self.pool.is_given_up()
+    }
+
     /// What became of the questions so far.
     pub(crate) fn tally(&self) -> Tally {
         self.pool.tally()
     }
 
     /// What the program answers to `toss` at a tolerance, with its question as it got it, and what it is allowed.
-    pub(crate) fn asked(&self, toss: &Toss, tolerance: f64) -> Option<Asked> {
+    pub(crate) fn asked(&self, toss: &Toss, tolerance: f64, known: &ExactLandings) -> Option<Asked> {
         let stepping = Stepping::adaptive(OWN, tolerance).ok()?;
         let solver = ByProgram { running: self.clone(), stepping };
         if toss.coin().is_none() && !solver.takes_bodies() {
             return None;
         }
+        let exact = known.of(toss)?;
         let (question, exchange) = solver.exchange(toss).ok()?;
         let answered = exchange.reply.as_ref().ok();
         let allowed = match answered {
@@ -192,7 +179,8 @@ impl Running {
             finite if finite.iter().all(|part| part.is_finite()) => Ok(question.in_body(finite)),
             _ => Err("answered a quaternion that is not finite".to_owned()),
         });
-        Asked::new(toss, format!("{HEADER}\n{}", exchange.question), &question, exchange.line, answer, allowed)
+        let as_got = format!("{HEADER}\n{}", exchange.question);
+        Some(Asked::new(toss, as_got, &question, exchange.line, answer, allowed, exact).late(exchange.is_late))
     }
 }
 
@@ -203,15 +191,14 @@ struct ByProgram {
 
 impl ByProgram {
     fn exchange(&self, toss: &Toss) -> Result<(Question, Exchange), SolveError> {
-        let flight = Flight::new(toss)?;
         let tolerance = match (self.running.program.claim, self.stepping.control()) {
             (Some(claim), _) => claim.error,
-            (None, StepControl::Tolerance(tolerance)) => flight.tightened(tolerance),
+            (None, StepControl::Tolerance(tolerance)) => Flight::new(toss)?.tightened(tolerance),
             (None, StepControl::Step(_)) => {
                 return Err(SolveError::NotOffered { scheme: self.stepping.scheme().name() });
             }
         };
-        let question = Question::new(toss, &flight, tolerance);
+        let question = Question::new(toss, tolerance);
         let exchange = self.running.pool.ask(&question.line());
         Ok((question, exchange))
     }

@@ -15,10 +15,17 @@ use crate::measure::diagnosis::GIVEN_UP;
 /// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
 const LOSSES: u32 = 6;
 
+/// An impatient pool waits for an answer this part of its limit, but not less than [`LEAST`].
+const IMPATIENT: u32 = 20;
+
+const LEAST: Duration = Duration::from_millis(100);
+
 #[derive(Debug)]
 pub(super) struct Pool {
     command: String,
     limits: Limits,
+    /// Whether answers may take as long as their limit, and a program is given up that often hangs.
+    is_patient: bool,
     state: Mutex<State>,
 }
 
@@ -40,12 +47,8 @@ pub(super) struct Exchange {
     /// `None` if it wrote none.
     pub(super) line: Option<String>,
     pub(super) reply: Reply,
-}
-
-/// A question that took too long, and whether there was an answer to another one before.
-struct Late {
-    exchange: Box<Exchange>,
-    has_answered: bool,
+    /// Whether it took too long.
+    pub(super) is_late: bool,
 }
 
 #[derive(Debug, Default)]
@@ -66,17 +69,22 @@ struct State {
 
 impl Pool {
     pub(super) fn new(command: &str, limits: Limits) -> Self {
-        Self { command: command.to_owned(), limits, state: Mutex::default() }
+        Self { command: command.to_owned(), limits, is_patient: true, state: Mutex::default() }
+    }
+
+    /// Other processes of the same program, to find out on which questions it hangs.
+    pub(super) fn impatient(&self) -> Self {
+        Self { is_patient: false, ..Self::new(&self.command, self.limits) }
     }
 
     /// What the program answers to a question. One that takes too long is asked once more of another process, because
     /// the machine may have been busy; unless there never was an answer.
     pub(super) fn ask(&self, question: &str) -> Exchange {
-        let exchange = match self.once(question) {
-            Ok(exchange) => exchange,
-            Err(Late { exchange, has_answered: false }) => *exchange,
-            Err(late) => self.once(question).unwrap_or(*late.exchange),
-        };
+        let mut exchange = self.once(question);
+        if exchange.is_late && self.gives_errors().is_some() {
+            let again = self.once(question);
+            exchange = if again.reply.is_ok() { again } else { exchange };
+        }
         let mut state = self.state();
         state.tally.questions += 1;
         state.tally.without_answer += u64::from(exchange.reply.is_err());
@@ -98,13 +106,13 @@ impl Pool {
         self.state().takes_bodies
     }
 
-    /// What one process answers; an error if it takes too long.
-    fn once(&self, question: &str) -> Result<Exchange, Late> {
+    /// What one process answers.
+    fn once(&self, question: &str) -> Exchange {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
                 let reply = Err(why.clone());
-                return Ok(Exchange { question: numbered(1, question), line: None, reply });
+                return Exchange { question: numbered(1, question), line: None, reply, is_late: false };
             }
             let idle = state.idle.pop();
             state.tally.starts += u64::from(idle.is_none());
@@ -112,27 +120,42 @@ impl Pool {
         };
         // A process that replaces one that hung would else be given the time to load its libraries for each launch on
         // which it hangs.
-        let longest = STARTS * self.limits.answer;
-        let start = start.map_or(longest, |took| longest.min(self.limits.answer + 3 * took));
+        let (longest, mut limits) = (STARTS * self.limits.answer, self.limits);
+        if !self.is_patient {
+            limits.answer = limits.answer.min(LEAST.max(limits.answer / IMPATIENT));
+        }
+        let start = start.map_or(longest, |took| longest.min(limits.answer + 3 * took));
         let question = numbered(idle.as_ref().map_or(1, Process::next), question);
         let (asked, took): (Result<_, Fault>, _) = clock::timed(|| {
             let mut process = idle.map_or_else(|| Process::start(&self.command), Ok)?;
             let (_, columns) = question.split_once(',').unwrap_or_default();
-            let answer = process.ask(columns, start, &self.limits)?;
+            let answer = process.ask(columns, start, &limits)?;
             Ok((process, answer))
         });
         let mut state = self.state();
         match asked {
             Ok((process, Answered { reply, line })) => {
                 let reply = state.take(process, reply, took, &self.limits);
-                Ok(Exchange { question, line: Some(line), reply })
+                Exchange { question, line: Some(line), reply, is_late: false }
             }
             Err(Fault { words, line, is_late }) => {
-                let has_answered = state.answering > Duration::ZERO;
-                let exchange = Exchange { question, line, reply: Err(state.note(words, took, &self.limits)) };
-                if is_late { Err(Late { exchange: Box::new(exchange), has_answered }) } else { Ok(exchange) }
+                let words = match is_late && !self.is_patient {
+                    true => format!("it answers nothing within {} s", limits.answer.as_secs_f64()),
+                    false => words,
+                };
+                state.lost += took;
+                let is_hopeless = self.is_patient && state.lost > LOSSES * self.limits.answer;
+                if is_hopeless || state.answering == Duration::ZERO {
+                    state.give_up(&words);
+                }
+                Exchange { question, line, reply: Err(words), is_late }
             }
         }
+    }
+
+    /// Whether it is asked no more.
+    pub(super) fn is_given_up(&self) -> bool {
+        self.state().given_up.is_some()
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -158,15 +181,6 @@ impl State {
             self.idle.push(process);
         }
         answer
-    }
-
-    /// Notes that a process did not answer, and returns what it did.
-    fn note(&mut self, fault: String, took: Duration, limits: &Limits) -> String {
-        self.lost += took;
-        if self.answering == Duration::ZERO || self.lost > LOSSES * limits.answer {
-            self.give_up(&fault);
-        }
-        fault
     }
 
     fn give_up(&mut self, why: &str) {

@@ -4,13 +4,13 @@
 //! An answer repeats the number of its question. Without it, one line too many on standard output would shift all
 //! answers that follow, and an answer to another launch would be taken for a wrong one.
 
+use dynamics::Body;
 use dynamics::body_rate::rate_by_momentum;
-use dynamics::{Body, Flight};
 use numerics::DoubleDouble;
 use numerics::scale::power_of_two_scale;
 use toss::{Attitude, State, Toss, Vector3};
 
-use crate::measure::diagnosis::Numbers;
+use crate::measure::diagnosis::{Numbers, turned_back};
 
 /// The names of the columns of a question, which are the first line that a program reads: the number of the question;
 /// the moments of inertia about z and x; the body rate (BF); the unit quaternion of the attitude at launch (from BF to
@@ -60,16 +60,15 @@ pub(crate) struct Question {
 }
 
 impl Question {
-    /// The question where `toss`, whose dimensionless form is `flight`, lands by steps of this `tolerance`, absolute and
-    /// relative, at rates of the size of 1.
-    pub(crate) fn new(toss: &Toss, flight: &Flight, tolerance: f64) -> Self {
+    /// The question where `toss` lands by steps of this `tolerance`, absolute and relative, at rates of the size of 1.
+    pub(crate) fn new(toss: &Toss, tolerance: f64) -> Self {
         let (largest, seconds) = (toss.launch.rate().amax(), toss.launch.flight_time());
-        let scale = power_of_two_scale(largest);
+        let scale = power_of_two_at_or_below(largest);
         // Rates below 1 are to be as accurate relative to their size.
         let absolute = tolerance * scale.min(1.0);
         let is_in_seconds = IN_SECONDS.contains(&largest) && absolute >= FINEST;
         let (unit, tolerance) = if is_in_seconds { (1.0, absolute) } else { (scale, tolerance) };
-        let time = if is_in_seconds { seconds } else { flight.span() };
+        let time = seconds * unit;
         let (moments, axes) = match toss.body {
             Body::Coin(coin) => {
                 let unit = power_of_two_scale(coin.i1()).clamp(1e-30, 1e30);
@@ -94,12 +93,8 @@ impl Question {
 
     /// What is asked, for a diagnosis.
     pub(crate) fn numbers(&self) -> Numbers {
-        Numbers::new(self.moments, self.rate.into(), self.time, self.attitude.components())
-    }
-
-    /// From the axes of the question to BF.
-    pub(crate) fn axes(&self) -> Attitude {
-        self.axes.unwrap_or(Attitude::IDENTITY)
+        let axes = self.axes.unwrap_or(Attitude::IDENTITY);
+        Numbers::new(self.moments, self.rate.into(), self.time, self.attitude.components()).about(axes)
     }
 
     /// Whether the attitude and the moments are those of the question only to rounding.
@@ -109,15 +104,7 @@ impl Question {
 
     /// The components of an answered quaternion, which leads from BF to LF.
     pub(crate) fn in_body(&self, quaternion: [f64; 4]) -> [f64; 4] {
-        match self.axes {
-            None => quaternion,
-            Some(axes) => {
-                let [w, x, y, z] = quaternion;
-                let [a, b, c, d] = axes.inverse().components();
-                let answered = nalgebra::Quaternion::new(w, x, y, z) * nalgebra::Quaternion::new(a, b, c, d);
-                [answered.w, answered.i, answered.j, answered.k]
-            }
-        }
+        self.axes.map_or(quaternion, |axes| turned_back(quaternion, axes))
     }
 
     /// The state at landing with this `attitude` (from BF to LF) and, if it was answered, this rate in the axes and the
@@ -143,6 +130,12 @@ impl Question {
         };
         Vector3::new(along(0), along(1), along(2))
     }
+}
+
+/// The power of two at or below `largest` ≥ 0, which may be subnormal; 1 for 0.
+fn power_of_two_at_or_below(largest: f64) -> f64 {
+    // The bits of a subnormal number are a multiple of the smallest one.
+    if largest.is_subnormal() { f64::from_bits(1 << largest.to_bits().ilog2()) } else { power_of_two_scale(largest) }
 }
 
 /// The moments of a body, the largest of the size of 1 to 2, and their axes where they are not those of BF.
@@ -222,7 +215,7 @@ mod tests {
     use super::*;
 
     fn asked(toss: &Toss, tolerance: f64) -> String {
-        Question::new(toss, &Flight::new(toss).unwrap(), tolerance).line()
+        Question::new(toss, tolerance).line()
     }
 
     #[test]
@@ -244,6 +237,13 @@ mod tests {
                 1.0,
                 "1.0,0.5,0.1,-2e-30,1.5,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9,1.0",
             ),
+            // Subnormal ones, too, which have fewer digits.
+            (
+                f64::from_bits(1 << 16),
+                2f64.powi(1023),
+                1.0,
+                "1.0,0.5,0.100006103515625,-0.0,1.5,1.0,0.0,0.0,0.0,9.701276818911234e-12,1e-9,1.0",
+            ),
         ] {
             let rate = Vector3::new(0.1, -2e-30, 1.5) * size;
             let launch = Launch::new(rate, TimeOfFlight::Given(unit / 3.0)).unwrap();
@@ -262,7 +262,7 @@ mod tests {
         assert!(asked(&given, 1e-9).starts_with("0.5,1.25,1.5,-0.5,1.0,") && asked(&given, 1e-9).ends_with(",1.0"));
         let tensor = Body::from_inertia([2.0, 2.2, 1.4, 0.3, -0.1, 0.25]).unwrap();
         for toss in [given, Toss::new(tensor, launch)] {
-            let question = Question::new(&toss, &Flight::new(&toss).unwrap(), 1e-9);
+            let question = Question::new(&toss, 1e-9);
             let launched = question.in_body(question.attitude.components());
             let attitude = Attitude::from_components(launched).unwrap();
             assert!(attitude.angle_to(&toss.launch.attitude()) < 1e-15);

@@ -27,7 +27,11 @@ fn of_one(found: &Diagnosis) -> String {
 
 /// What is said before the checks begin.
 pub(crate) fn early(found: &Diagnosis) -> String {
-    of_one(found) + "The checks go on; interrupt them if this is enough.\n"
+    let then = match found.explains_all {
+        true => "As this explains every answer, the run ends with the first check that fails.\n",
+        false => "The checks go on; interrupt them if this is enough.\n",
+    };
+    of_one(found) + then
 }
 
 /// The solver with its likeliest cause.

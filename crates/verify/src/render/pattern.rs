@@ -32,6 +32,7 @@ pub(crate) fn of_rows(rows: &[Row]) -> String {
     let open = rows.iter().filter(|row| row.status == Status::NotJudged).count();
     match rows.len() - open {
         judged if open == 0 => format!("All {judged} rows pass{end}."),
+        judged if open == 1 => format!("All {judged} rows that are judged pass, one is not{end}."),
         judged => format!("All {judged} rows that are judged pass, {open} are not{end}."),
     }
 }

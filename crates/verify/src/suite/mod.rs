@@ -16,6 +16,7 @@
 
 mod selection;
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -62,6 +63,8 @@ pub struct Suite {
 
 /// What a run tells while it goes on.
 pub(crate) enum Progress<'a> {
+    /// A solver is asked for launches, to find what is wrong with it.
+    Diagnoses,
     /// A check begins; there are so many in all.
     Begins(&'a Check, usize),
     /// A check has ended with these rows, and took this time.
@@ -210,8 +213,10 @@ impl Suite {
         let baseline = Baseline::read(&path)?.map(|baseline| baseline.worse_above(ratio));
         let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
         let (checks, mut left_out) = self.checks()?;
-        self.wrong_program(&context)?.iter().for_each(|found| show(Progress::Wrong(found)));
-        let (mut rows, timings) = self.measure(&checks, &context, &limits, show)?;
+        let early = self.wrong_program(&context, show)?;
+        early.iter().for_each(|found| show(Progress::Wrong(found)));
+        let is_explained = early.as_ref().is_some_and(|found| found.explains_all);
+        let (mut rows, timings) = self.measure(&checks, &context, &limits, is_explained, show)?;
         let is_complete = self.only.is_none() && timings.len() == checks.len();
         let unused = match is_complete {
             true => unused_limits(&rows, &limits, |check, subject| self.measures(&checks, check, subject)),
@@ -224,6 +229,10 @@ impl Suite {
         let without_rows = |check: &&&Check| !rows.iter().any(|row| row.check == check.id);
         let why = "as the registry has no solver, or no pair of solvers, that they measure";
         left_out.extend(checks.iter().filter(ended).filter(without_rows).map(|check| LeftOut { check: check.id, why }));
+        if is_explained {
+            let why = "as the likeliest cause explains every answer";
+            left_out.extend(checks.iter().filter(|check| !ended(check)).map(|check| LeftOut { check: check.id, why }));
+        }
         rows.extend(unused);
         ensure!(!rows.is_empty(), "no check measured anything");
         require_distinct(&rows)?;
@@ -231,39 +240,62 @@ impl Suite {
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
         let compared = Compared { file: shown(&path.display().to_string()), found: baseline.is_some(), written: false };
         // A solver that never ended a check would not end a diagnosis, either.
-        let has_ended = timings.len() == checks.len();
-        let diagnoses = if has_ended { self.diagnoses(&context, &rows)? } else { Vec::new() };
+        let has_ended = timings.len() == checks.len() || early.is_some();
+        let diagnoses = if has_ended { self.diagnoses(&context, &rows, early, show)? } else { Vec::new() };
         let asked = self.program().map(Running::tally);
         Ok(Report::new(context, rows, timings, compared, moves, left_out).with_diagnoses(diagnoses, asked))
     }
 
     /// What the program most likely does wrong, if a few launches show that it is wrong: one that is slow would else be told
     /// after minutes.
-    fn wrong_program(&self, context: &Context) -> anyhow::Result<Option<Diagnosis>> {
+    fn wrong_program(&self, context: &Context, show: &dyn Fn(Progress<'_>)) -> anyhow::Result<Option<Diagnosis>> {
         let (Some(program), Some(subject)) = (&self.program, context.subjects.first()) else { return Ok(None) };
-        diagnosis::of_wrong_solver(&subject.name, &|toss, by| program.asked(toss, by))
+        show(Progress::Diagnoses);
+        let found = diagnosis::of_some(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?;
+        if found.as_ref().is_none_or(|found| found.explains_all) {
+            return Ok(found);
+        }
+        // One that hangs would else be given up before it is known where.
+        let is_silent = found.as_ref().is_some_and(|found| found.without_answer > 0);
+        let program = if is_silent { program.impatient() } else { program.clone() };
+        Ok(diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?.or(found))
     }
 
-    /// What solvers with failing rows most likely do wrong.
-    fn diagnoses(&self, context: &Context, rows: &[Row]) -> anyhow::Result<Vec<Diagnosis>> {
+    /// What solvers with failing rows most likely do wrong. Of a program that was known to be wrong `early`, it is that.
+    fn diagnoses(
+        &self,
+        context: &Context,
+        rows: &[Row],
+        early: Option<Diagnosis>,
+        show: &dyn Fn(Progress<'_>),
+    ) -> anyhow::Result<Vec<Diagnosis>> {
         let fails = |subject: &str| {
             let is_of = |row: &&Row| row.subject == subject && row.judges == Some(Judges::Solver);
             rows.iter().filter(is_of).any(|row| !row.status.passes())
         };
-        if let Some(program) = &self.program {
-            let subject = context.subjects.iter().map(|subject| &subject.name).find(|subject| fails(subject));
-            let found = subject.map(|subject| diagnosis::of_solver(subject, &|toss, by| program.asked(toss, by)));
-            return Ok(found.transpose()?.flatten().into_iter().collect());
+        if !context.subjects.iter().any(|subject| fails(&subject.name)) {
+            return Ok(Vec::new());
         }
-        let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails));
+        show(Progress::Diagnoses);
+        if let (Some(program), Some(subject)) = (&self.program, context.subjects.first()) {
+            let program = if program.is_given_up() { program.impatient() } else { program.clone() };
+            let found = match early {
+                None => diagnosis::of_solver(&subject.name, &|toss, by| program.asked(toss, by, &context.exact))?,
+                early => early,
+            };
+            return Ok(found.into_iter().collect());
+        }
+        let of_entries = context.registry.iter().map(|entry| diagnosis::of_entry(entry, &fails, &context.exact));
         Ok(of_entries.collect::<anyhow::Result<Vec<_>>>()?.concat())
     }
 
+    /// Runs the checks. If the cause of what fails is known and explains all, the first that fails ends the run.
     fn measure(
         &self,
         checks: &[&'static Check],
         context: &Arc<Context>,
         limits: &Limits,
+        is_explained: bool,
         show: &dyn Fn(Progress<'_>),
     ) -> anyhow::Result<(Vec<Row>, Vec<Timing>)> {
         let judge = Judge { limits, commands: &self.commands, effort: context.effort };
@@ -273,14 +305,17 @@ impl Suite {
         let mut end = |check: &Check, timing: Timing, end: End| {
             let rows = end.rows(check, &timing, judge);
             show(Progress::Ended(&rows, &timing));
+            let is_last = is_explained && rows.iter().any(|row| !row.status.passes());
             ended.push((rows, timing));
+            if is_last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let mut to_run = Vec::new();
         for check in checks {
             match kept.as_ref().map(|kept| kept.of(check.id)).transpose()?.flatten() {
                 Some((timing, measured)) => {
                     start(check);
-                    end(check, timing, End::Measured(measured));
+                    // A run of a program keeps nothing, so that only other solvers come here.
+                    let _ = end(check, timing, End::Measured(measured));
                 }
                 None => to_run.push(*check),
             }
@@ -292,8 +327,7 @@ impl Suite {
             if let (Some(kept), End::Measured(measured), false) = (&kept, &found, makes_records) {
                 kept.keep(check.id, &timing, measured)?;
             }
-            end(check, timing, found);
-            Ok(())
+            Ok(end(check, timing, found))
         })?;
         let place = |timing: &Timing| checks.iter().position(|check| check.id == timing.check);
         ended.sort_by_key(|(_, timing)| place(timing));

@@ -145,6 +145,9 @@ fn a_solver_that_claims_no_error_fails_where_an_error_is_judged() {
     for check in ["random-cos-tilt", "fig4-same-counts"] {
         assert!(rows.iter().any(|row| row.check == check && row.status == Status::NoClaim), "{check}");
     }
+    let adversarial = rows.iter().find(|row| row.check == "adversarial-silence").expect("a row");
+    let why = adversarial.failure.as_deref().unwrap_or_default();
+    assert!(why.ends_with("it claims no error, or one above 1e-2") && adversarial.worst_input.is_some(), "{why}");
 }
 
 #[test]

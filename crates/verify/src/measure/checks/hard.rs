@@ -160,7 +160,6 @@ fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let number = hard_number(context.effort) / 12;
     let tosses = |family| (0..number).filter_map(move |index| hard_toss(family, index, Some(PHASE)));
     let tosses: Vec<Toss> = HARD.iter().flat_map(tosses).collect();
-    let unjudged = tosses.par_iter().filter(|toss| context.exact.of(toss).is_none()).count();
     let row = |(entry, scheme): (&SolverEntry, Scheme)| {
         let by = |(index, toss): (u64, &Toss)| Some((*toss, hostile::of_toss(entry, scheme, toss, index).ok()?));
         let flights: Vec<(Toss, Subject)> = (0..).zip(&tosses).filter_map(by).collect();
@@ -171,6 +170,7 @@ fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         });
         let trials: Vec<Trial<'_>> = trials.collect();
         let name = Subject::new(entry, Some(hostile::finest(scheme)?), toss::Formulation::default()).name;
+        let unjudged = tosses.par_iter().filter(|toss| context.exact.of(toss).is_none()).count();
         anyhow::Ok(Fold::Largest.of(&name, &trials).beside_unjudged(unjudged))
     };
     let each = context.registry.iter().flat_map(by_scheme).filter_map(|(entry, scheme)| Some((entry, scheme?)));

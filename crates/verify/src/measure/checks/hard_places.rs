@@ -73,8 +73,9 @@ fn expected(context: &Context, subject: &str, hazard: &str) -> Option<Expectatio
 
 fn silently_wrong(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let row = |answers: &Answers| {
-        let is_claimed = answers.number_of(Answer::Unclaimed).measured == 0.0;
-        answers.number_of(Answer::SilentlyWrong).claiming(is_claimed.then_some(0.0))
+        let [wrong, unclaimed] = [Answer::SilentlyWrong, Answer::Unclaimed].map(|answer| answers.number_of(answer));
+        let is_claimed = unclaimed.measured == 0.0;
+        Measurement { worst: wrong.worst.or(unclaimed.worst), ..wrong }.claiming(is_claimed.then_some(0.0))
     };
     Ok(context.search.get(context)?.iter().map(row).collect())
 }

@@ -29,11 +29,19 @@ pub(crate) struct Numbers {
     pub(super) rate: [f64; 3],
     pub(super) time: f64,
     pub(super) attitude: [f64; 4],
+    /// From the principal axes to BF.
+    pub(super) axes: Attitude,
 }
 
 impl Numbers {
+    /// About the axes of BF.
     pub(crate) fn new(moments: [f64; 3], rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
-        Self { moments, couplings: [0.0; 3], rate, time, attitude }.with_moments(moments)
+        Self { moments, couplings: [0.0; 3], rate, time, attitude, axes: Attitude::IDENTITY }.with_moments(moments)
+    }
+
+    /// The same numbers about other axes, which `axes` turns to those of BF.
+    pub(crate) fn about(self, axes: Attitude) -> Self {
+        Self { axes, ..self }
     }
 
     /// k = I3/I1.
@@ -123,6 +131,20 @@ impl Numbers {
     fn launched(&self) -> Quaternion<f64> {
         quaternion(self.attitude)
     }
+
+    /// Rate and attitude in BF, with the moments where they are.
+    fn in_body(&self) -> Self {
+        let rate = self.axes.body_to_lab(&self.rate.into()).into();
+        Self { rate, attitude: turned_back(self.attitude, self.axes), ..*self }
+    }
+
+    /// The moments about x, y and z of BF.
+    fn about_body_axes(&self) -> [f64; 3] {
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
+            let along = self.axes.lab_to_body(&axis);
+            along.component_mul(&along).dot(&Vector3::from(self.moments))
+        })
+    }
 }
 
 /// Q' = ½ Q ω and Euler's equations with any couplings. A rate that grows beyond `fastest` is not followed.
@@ -167,7 +189,7 @@ impl Hypothesis {
 }
 
 /// All hypotheses. Of two that explain the same answers, the first is told.
-pub(super) const HYPOTHESES: [Hypothesis; 50] = [
+pub(super) const HYPOTHESES: [Hypothesis; 52] = [
     Hypothesis::of_answer("its quaternion is read as x,y,z,w", |_, answer| scalar_first(answer)),
     Hypothesis::of_answer("its quaternion is conjugated, so that it leads from BF to LF", |_, answer| {
         conjugated(answer)
@@ -255,6 +277,14 @@ pub(super) const HYPOTHESES: [Hypothesis; 50] = [
     Hypothesis::of_question("i1 and i3 are exchanged beside i2", |numbers| numbers.by_moments([2, 1, 0])),
     Hypothesis::of_question("i2, i3, i1 stand for i1, i2, i3", |numbers| numbers.by_moments([1, 2, 0])),
     Hypothesis::of_question("i3, i1, i2 stand for i1, i2, i3", |numbers| numbers.by_moments([2, 0, 1])),
+    Hypothesis::of_question("the products of inertia are 0: it ignores them", |numbers| {
+        numbers.in_body().with_moments(numbers.about_body_axes())
+    })
+    .read_as(in_body),
+    Hypothesis::of_question("x, y and z are the principal axes: it turns neither rate nor attitude", |numbers| {
+        numbers.in_body()
+    })
+    .read_as(in_body),
     Hypothesis::of_question("Euler's equations have the opposite sign, ω' = I⁻¹ (ω × I ω)", |numbers| {
         numbers.with_torques([-1.0; 3])
     }),
@@ -292,6 +322,16 @@ pub(super) const HYPOTHESES: [Hypothesis; 50] = [
 /// A body whose attitude turns by `times` its rate, while Euler's equations move that rate as ever.
 fn with_kinematics(numbers: Numbers, times: f64) -> Numbers {
     numbers.with_rate(times).with_torques([1.0 / times; 3])
+}
+
+/// A quaternion that leads from BF, if `attitude` leads from axes that `axes` turns to BF.
+pub(crate) fn turned_back(attitude: [f64; 4], axes: Attitude) -> [f64; 4] {
+    components(quaternion(attitude) * quaternion(axes.components()).conjugate())
+}
+
+/// An answer in BF, as a solver has it that is given a tensor.
+fn in_body(numbers: &Numbers, answer: [f64; 4]) -> [f64; 4] {
+    turned_back(answer, numbers.axes)
 }
 
 fn as_scalar_last(numbers: Numbers) -> Numbers {

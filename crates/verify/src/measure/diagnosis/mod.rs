@@ -1,14 +1,16 @@
 //! What a wrong solver most likely does, told from its answers to launches of every kind: a known mistake that explains
-//! them, an error that is merely larger than allowed, or the launches on which alone it is right. If none of these explains
-//! all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a conjecture from
-//! these launches, and is told with how many of them it explains. Other bodies are asked for once coins are right.
+//! them, an error that is merely larger than allowed, or the launches on which alone it is right, or answers. If none of
+//! these explains all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a
+//! conjecture from these launches, and is told with how many of them it explains. Other bodies are asked for once coins are
+//! right.
 
 mod hypotheses;
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use dynamics::{Flight, Phases, Toss};
+use dynamics::{Phases, Toss};
 use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Attitude, SolverEntry};
@@ -16,16 +18,20 @@ use toss::{Attitude, SolverEntry};
 use self::hypotheses::{HYPOTHESES, Hypothesis};
 use super::any_launch;
 use super::case;
+use super::exact_landings::ExactLandings;
 use super::reference::Reference;
 use super::run::Allowance;
 use super::subject::by_scheme;
 use crate::process::Question;
 use crate::shown::shown;
 
-pub(crate) use self::hypotheses::Numbers;
+pub(crate) use self::hypotheses::{Numbers, turned_back};
 
 /// The number of launches of coins that a diagnosis asks for, and as many of other bodies.
 const LAUNCHES: u64 = 1000;
+
+/// What these are called.
+const KINDS: [&str; 2] = ["launches", "launches of bodies with three moments"];
 
 /// Of the launches one in so many says whether a solver is right, before it is measured: a prime number, so that launches of
 /// every kind are among them.
@@ -43,7 +49,7 @@ const EXPLAINED: f64 = 0.95;
 /// A few wrong answers show which hypotheses are worth trying on all.
 const TRIED: usize = 24;
 
-/// An angle (rad) by which answers may differ from what a hypothesis says, beside ten times what is allowed.
+/// An angle (rad) that tells no answer from another, where less is allowed.
 const NEAR: f64 = 1e-6;
 
 /// The loosest tolerance that a solver may have which is right but for its accuracy (rad of error a rad of phase).
@@ -70,15 +76,15 @@ pub(crate) struct Asked {
     toss: Toss,
     /// The question as the solver got it.
     question: String,
-    /// The numbers of the question, about axes from which `axes` leads to BF.
     numbers: Numbers,
-    axes: Attitude,
     /// The answer as it was written, if it wrote any.
     line: Option<String>,
     /// The quaternion from BF to LF that was answered, or why there is none.
     answer: Result<[f64; 4], String>,
+    /// Whether there is no answer because it took too long.
+    is_late: bool,
     allowed: Allowance,
-    exact: Reference,
+    exact: Arc<Reference>,
 }
 
 /// What a wrong solver most likely does.
@@ -112,8 +118,14 @@ pub struct Example {
 }
 
 impl Asked {
-    /// What the solver of `entry` answers; `None` if it takes no such body.
-    fn of(entry: &SolverEntry, scheme: Option<toss::Scheme>, tolerance: f64, toss: &Toss) -> Option<Self> {
+    /// What the solver of `entry` answers; `None` as for [`Ask`].
+    fn of(
+        entry: &SolverEntry,
+        scheme: Option<toss::Scheme>,
+        tolerance: f64,
+        toss: &Toss,
+        known: &ExactLandings,
+    ) -> Option<Self> {
         let by = any_launch::subject(entry, scheme, tolerance, toss).ok()?;
         let landing = by.solver.land(toss);
         let (answer, estimate) = match &landing {
@@ -121,15 +133,14 @@ impl Asked {
             Err(error) if toss.coin().is_none() && error.kind() == "not_symmetric" => return None,
             Err(error) => (Err(error.to_string()), None),
         };
-        // Whoever states nothing is taken by a rough measure.
-        let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR));
+        // Whoever states nothing is taken by a rough measure. cos θ is that of the rounded quaternion.
+        let allowed = Allowance::by_estimate(estimate.unwrap_or(NEAR).max(ROUNDED));
         let line = answer.as_ref().ok().map(|parts: &[f64; 4]| parts.map(|part| format!("{part:?}")).join(","));
         let question = case::text(toss) + &case::settings(&by);
-        let in_numbers = Question::new(toss, &Flight::new(toss).ok()?, any_launch::TOLERANCE);
-        Self::new(toss, question, &in_numbers, line, answer, allowed)
+        let in_numbers = Question::new(toss, any_launch::TOLERANCE);
+        Some(Self::new(toss, question, &in_numbers, line, answer, allowed, known.of(toss)?))
     }
 
-    /// `None` if there is no reference of the toss.
     pub(crate) fn new(
         toss: &Toss,
         question: String,
@@ -137,9 +148,15 @@ impl Asked {
         line: Option<String>,
         answer: Result<[f64; 4], String>,
         allowed: Allowance,
-    ) -> Option<Self> {
-        let (numbers, axes, exact) = (in_numbers.numbers(), in_numbers.axes(), Reference::of(toss).ok()?);
-        Some(Self { toss: *toss, question, numbers, axes, line, answer, allowed, exact })
+        exact: Arc<Reference>,
+    ) -> Self {
+        let numbers = in_numbers.numbers();
+        Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact }
+    }
+
+    /// The same launch, whose answer took too long if `is_late`.
+    pub(crate) fn late(self, is_late: bool) -> Self {
+        Self { is_late, ..self }
     }
 
     /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
@@ -156,6 +173,16 @@ impl Asked {
         self.errors().is_some_and(|[part, _]| part <= 1.0)
     }
 
+    /// Whether it is no fault that there is no answer.
+    fn is_declined(&self) -> bool {
+        self.answer.is_err() && !self.is_late && any_launch::may_be_declined(&self.toss)
+    }
+
+    /// Whether it was asked, and not only given up before.
+    fn is_asked(&self) -> bool {
+        !self.answer.as_ref().is_err_and(|why| why.contains(GIVEN_UP))
+    }
+
     fn is_right(&self) -> bool {
         let has_norm = |answer: &[f64; 4]| {
             let off = self.exact.cos_tilt_error(cos_tilt_as_answered(*answer));
@@ -164,17 +191,22 @@ impl Asked {
         self.is_right_in_direction() && self.answer.as_ref().is_ok_and(has_norm)
     }
 
+    /// The angle (rad) by which an answer may differ from what a hypothesis says.
+    fn near(&self) -> f64 {
+        10.0 * self.allowed.attitude.max(NEAR)
+    }
+
     /// Whether `hypothesis` explains the answer; `None` if it says nothing of this question.
     fn is_explained(&self, hypothesis: &Hypothesis) -> Option<bool> {
         let asked = (hypothesis.ask)(self.numbers);
         let right = || {
             let answer = Attitude::from_components(*self.answer.as_ref().ok()?).ok()?;
-            let answer = (hypothesis.read)(&self.numbers, (answer * self.axes).components());
+            let answer = (hypothesis.read)(&self.numbers, (answer * self.numbers.axes).components());
             Attitude::from_components(answer).ok()
         };
         let answer = right();
         match asked.angle_to(&answer.unwrap_or(Attitude::IDENTITY)) {
-            Some(off) => Some(answer.is_some() && off <= 10.0 * self.allowed.attitude.max(NEAR)),
+            Some(off) => Some(answer.is_some() && off <= self.near()),
             // Numbers without a landing explain why there is no answer.
             None => self.answer.is_err().then_some(true),
         }
@@ -202,19 +234,23 @@ impl Asked {
 }
 
 /// What the solver of `entry` most likely does wrong with each of its schemes, by those whose rows `fails` says to fail.
-pub(crate) fn of_entry(entry: &SolverEntry, fails: &dyn Fn(&str) -> bool) -> anyhow::Result<Vec<Diagnosis>> {
+pub(crate) fn of_entry(
+    entry: &SolverEntry,
+    fails: &dyn Fn(&str) -> bool,
+    known: &ExactLandings,
+) -> anyhow::Result<Vec<Diagnosis>> {
     let mut found = Vec::new();
     for (entry, scheme) in by_scheme(entry) {
         let Some(toss) = any_launch::tosses(1)?.pop() else { continue };
         let name = any_launch::subject(entry, scheme, TOLERANCES[0], &toss)?.name;
         if fails(&name) {
-            found.extend(of_solver(&name, &|toss, by| Asked::of(entry, scheme, by, toss))?);
+            found.extend(of_solver(&name, &|toss, by| Asked::of(entry, scheme, by, toss, known))?);
         }
     }
     Ok(found)
 }
 
-/// What a solver answers to a toss at a tolerance; `None` if it takes no such body.
+/// What a solver answers to a toss at a tolerance; `None` if it takes no such body, or there is no reference of it.
 type Ask<'a> = dyn Fn(&Toss, f64) -> Option<Asked> + Sync + 'a;
 
 /// What `subject` most likely does wrong, by what `ask` answers.
@@ -224,11 +260,10 @@ pub(crate) fn of_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<D
     Ok(of(0).or_else(|| of(1)))
 }
 
-/// The same of a solver that is wrong on a few launches, by these alone if a cause explains them.
-pub(crate) fn of_wrong_solver(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
+/// The same by some of these launches.
+pub(crate) fn of_some(subject: &str, ask: &Ask<'_>) -> anyhow::Result<Option<Diagnosis>> {
     let launches = launches()?;
-    let found = (0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask));
-    if found.as_ref().is_none_or(|found| found.explains_all) { Ok(found) } else { of_solver(subject, ask) }
+    Ok((0..2).find_map(|kind| of_kind(kind, &launches, ONE_IN, TOLERANCES[0], subject, ask)))
 }
 
 /// By its answers to one in so many launches of a kind.
@@ -244,7 +279,7 @@ fn of_kind(
     // What is wrong for coins may be told apart by bodies.
     let also = kind == 0 && !asked.iter().all(Asked::is_right);
     let also = if also { some_of(&launches[1], ONE_IN, tolerance, ask) } else { Vec::new() };
-    diagnosis(subject, asked, &also)
+    diagnosis(subject, KINDS[kind], asked, &also)
 }
 
 /// The launches of which a diagnosis is made: of coins, and of other bodies.
@@ -258,31 +293,33 @@ fn some_of(launches: &[Toss], one_in: usize, tolerance: f64, ask: &Ask<'_>) -> V
     launches.par_iter().step_by(one_in).filter_map(asked).collect()
 }
 
-/// The likeliest cause of the wrong answers of `subject`; `None` if all are right. Of two causes that explain the same
-/// answers, that which explains more of what it answered `also` is likelier.
-fn diagnosis(subject: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
-    let is_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
-    asked.retain(|one| is_silent || one.answer.is_ok() || !any_launch::may_be_declined(&one.toss));
+/// The likeliest cause of the wrong answers of `subject` to launches of this kind; `None` if all are right. Of two causes
+/// that explain the same answers, that which explains more of what it answered `also` is likelier.
+fn diagnosis(subject: &str, kind: &str, mut asked: Vec<Asked>, also: &[Asked]) -> Option<Diagnosis> {
+    // Of what came after a program was given up nothing is known.
+    if asked.iter().any(Asked::is_asked) {
+        asked.retain(Asked::is_asked);
+    }
+    let is_mostly_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
+    asked.retain(|one| is_mostly_silent || !one.is_declined());
     let wrong: Vec<&Asked> = asked.iter().filter(|one| !one.is_right()).collect();
     let silent = wrong.iter().filter(|one| one.answer.is_err()).count();
     if wrong.is_empty() {
         return None;
     }
-    let unanswered = |is_it: bool| is_it.then(|| no_answer(&asked));
+    let is_silent = is_mostly_silent || silent == wrong.len();
     // A few wrong answers are rather those of some launches than of a rough solver.
     let is_rare = wrong.len() * 10 < asked.len();
-    let cause = unanswered(silent * 2 > asked.len())
-        .or_else(|| if is_rare { split(&asked) } else { None })
-        .or_else(|| unanswered(silent == wrong.len()))
+    let cause = (if is_rare || is_silent { split(&asked) } else { None })
+        .or_else(|| is_silent.then(|| no_answer(kind, &asked)))
         .or_else(|| without_norm(&asked))
         .or_else(|| rough(&asked))
         .or_else(|| mistake(&asked, also))
         .or_else(|| split(&asked));
     let unknown = || {
         let (wrong, all, known) = (wrong.len(), asked.len(), HYPOTHESES.len());
-        let words = format!(
-            "wrong in {wrong} of {all} launches, for a reason that none of the {known} known mistakes explains"
-        );
+        let words =
+            format!("wrong in {wrong} of {all} {kind}, for a reason that none of the {known} known mistakes explains");
         Cause::unexplained(words, &asked)
     };
     let Cause { words, explains } = cause.unwrap_or_else(unknown);
@@ -330,22 +367,32 @@ fn count(explains: &[Option<bool>]) -> usize {
     explains.iter().filter(|explained| **explained == Some(true)).count()
 }
 
-/// The most frequent reason why there is no answer.
-fn no_answer(asked: &[Asked]) -> Cause {
+/// Answers that are missing: the cause of nothing but all of them.
+fn no_answer(kind: &str, asked: &[Asked]) -> Cause {
+    let (reason, silent) = most_frequent_reason(asked);
+    if silent == asked.len() {
+        let words = format!("no answer to any of the {kind}: {reason}");
+        return Cause { words, explains: vec![Some(true); silent] };
+    }
+    Cause::unexplained(format!("no answer to {silent} of {} {kind}: {reason}", asked.len()), asked)
+}
+
+/// The most frequent reason why there is no answer, and to how many launches there is none.
+fn most_frequent_reason(asked: &[Asked]) -> (&str, usize) {
     let reasons = asked.iter().filter_map(|one| one.answer.as_ref().err());
     // A program that is given up says of all launches that follow what it did.
     let mut reasons: Vec<&str> = reasons.map(|why| why.strip_prefix(GIVEN_UP).unwrap_or(why)).collect();
     reasons.sort_unstable();
     let most = reasons.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
-    let reason = most.and_then(|same| same.first()).copied().unwrap_or_default();
-    let words = format!("no answer to {} of {} launches: {reason}", reasons.len(), asked.len());
-    Cause { words, explains: asked.iter().map(|one| Some(one.answer.is_err() || one.is_right())).collect() }
+    (most.map_or("", |same| same[0]), reasons.len())
 }
 
 /// A known mistake that explains nearly all answers, the wrong and the right ones.
 fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
     let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
-    let wrong: Vec<&Asked> = answered.iter().copied().filter(|one| !one.is_right()).collect();
+    // An answer that is nearly right is explained by every hypothesis that changes nothing there.
+    let is_far = |one: &&Asked| one.errors().is_none_or(|[_, angle]| angle > one.near());
+    let wrong: Vec<&Asked> = answered.iter().copied().filter(is_far).collect();
     let few: Vec<&Asked> = wrong.iter().copied().step_by((wrong.len() / TRIED).max(1)).collect();
     let also: Vec<&Asked> = also.iter().collect();
     let share = |hypothesis: &Hypothesis, on: &[&Asked]| {
@@ -406,12 +453,12 @@ const FEATURES: [Feature; 18] = [
     Feature("i3/i2", |_, of| of.moments[2] / of.moments[1]),
     Feature("the smallest moment divided by the largest", |_, of| of.thinness()),
     Feature("2 T I/S² (energy T, angular momentum S, middle moment I)", |_, of| of.side_of_the_separatrix()),
+    Feature("the time", |_, of| of.time),
     Feature("the phase (rad)", |toss, _| Phases::new(toss).map_or(f64::INFINITY, |phases| phases.largest)),
     Feature("the tilt at launch (rad)", |_, of| {
         let [w, x, y, z] = of.attitude;
         2.0 * x.hypot(y).atan2(w.hypot(z))
     }),
-    Feature("the time", |_, of| of.time),
     Feature("the largest component of the rate", |_, of| nalgebra::Vector3::from(of.rate).amax()),
     Feature("i1", |_, of| of.moments[0]),
     Feature("w", |_, of| of.attitude[0]),
@@ -425,8 +472,8 @@ const FEATURES: [Feature; 18] = [
 ];
 
 /// The fewest answers on the side of a bound on which all are right, and on the other one. More than the former have no time
-/// of flight, in which every solver is right.
-const SIDES: [usize; 2] = [50, 5];
+/// of flight, in which every solver is right. The latter would by chance be the last of a thousand in one of 10^7 cases.
+const SIDES: [usize; 2] = [50, 3];
 
 /// The part of the answers on the other side of a bound that has to be wrong.
 const RULED_OUT: f64 = 0.75;
@@ -467,7 +514,12 @@ fn split(asked: &[Asked]) -> Option<Cause> {
             }
         }
     }
-    best.map(|(_, words)| Cause::unexplained(words, asked))
+    let (_, mut words) = best?;
+    let (reason, silent) = most_frequent_reason(asked);
+    if silent > 0 && silent == asked.iter().filter(|one| !one.is_right()).count() {
+        words += &format!("; no answer there: {reason}");
+    }
+    Some(Cause::unexplained(words, asked))
 }
 
 /// The number from `low` to `high` with the fewest digits.
