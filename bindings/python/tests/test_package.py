@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import mypy.api
 import pytest
 
 import unfair_toss as ut
@@ -18,12 +19,24 @@ def python_blocks(page: Path) -> list[str]:
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
-@pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md", "docs/guide/python.md"])
+PAGES = ["README.md", "bindings/python/README.md", "docs/guide/python.md"]
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_the_lines_of_the_readme_run(page, suite):
     blocks = python_blocks(ROOT / page)
     assert blocks
     for block in blocks:
         exec(compile(block, page, "exec"), {})
+
+
+def test_the_types_of_the_lines_agree(tmp_path):
+    for page in [*PAGES, "docs/more-machines.md"]:
+        for number, block in enumerate(python_blocks(ROOT / page)):
+            (tmp_path / f"{re.sub(r'[^a-z]', '_', page)}_{number}.py").write_text(block, encoding="utf-8")
+    settings = ["--config-file", str(ROOT / "bindings/python/pyproject.toml"), "--cache-dir", str(tmp_path / "cache")]
+    said, errors, code = mypy.api.run([*settings, "--allow-untyped-defs", "--allow-untyped-calls", *map(str, tmp_path.glob("*.py"))])
+    assert code == 0, said + errors
 
 
 def test_the_guide_shows_the_table_of_a_notebook():
