@@ -75,8 +75,8 @@ def coarse(toss, rtol):
 @pytest.mark.parametrize(
     ("f", "diagnosis"),
     [
-        (conjugated, r"right if its quaternion is conjugated, .*: 1000 of 1000\."),
-        (first_row, r"none of the 50 known mistakes .* Toss\(.* landed at .*, expected "),
+        (conjugated, r"right if its quaternion is conjugated, .*: 143 of 143\."),
+        (first_row, r"none of the \d+ known mistakes .* Toss\(.* landed at .*, expected "),
         (coarse, r"right up to a tolerance of about"),
     ],
 )
@@ -114,7 +114,7 @@ def test_a_function_that_declines_has_no_answer_and_goes_on(suite):
     found = ut.verify(declining, quick=True, only="random-attitude", program=suite)
     assert not found.passed and 0 < found.without_answer[0] < found.cases[0]
     assert found.failure[0].endswith(r"it turns\nforwards, and 1, 2")
-    assert "no answer to" in found.diagnosis
+    assert "no answer there: it turns" in found.diagnosis
 
 
 def test_a_function_that_hangs_fails_within_its_time(suite):
