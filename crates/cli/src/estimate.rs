@@ -24,7 +24,7 @@ pub(crate) fn text(found: &Estimate, solver: &str) -> String {
         Found::Counts(counts) => {
             format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
         }
-        Found::Shares { .. } if *kind == IntervalKind::Proven => format!("all, in {} cells", found.points),
+        Found::Enclosed { .. } => format!("all, in {} cells", found.points),
         Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
     };
     let mut lines = vec![

@@ -13,7 +13,8 @@ use crate::error::{InputError, require};
 
 /// The body rate (BF, rad/s) of a coin whose normal turns about the angular momentum at `turn` = |S|/I1 ≥ 0 (rad/s) and
 /// is at the angle `psi` = ψ to it, from 0 to π (rad). Its part across the normal is put along the body's x axis.
-/// Sine and cosine of ψ are right to 0.55 of the distance between neighbouring f64, and the same on every machine.
+/// Sine and cosine of ψ are off by up to 0.55 of the distance between neighbouring f64, by measurement, and the same on every
+/// machine.
 /// Fails for a number outside its range, and for a rod with I3 = 0, whose spin does not follow from ψ.
 pub fn rate_of_precession(coin: &Coin, turn: f64, psi: f64) -> Result<Vector3<f64>, InputError> {
     require("turn [rad/s]", turn, "finite and >= 0", turn >= 0.0)?;

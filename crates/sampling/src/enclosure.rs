@@ -58,6 +58,8 @@ const BEYOND_REACH: f64 = 1.1e-16;
 pub(crate) struct Enclosure {
     pub(crate) interval: Interval,
     pub(crate) cells: u64,
+    /// Whether another pass would have taken more cells than are allowed.
+    pub(crate) is_spent: bool,
 }
 
 /// Why a space without a closed form over the speeds is refused.
@@ -130,15 +132,6 @@ pub fn usual_accuracy(space: &Space) -> f64 {
     }
 }
 
-/// Why an enclosure of so many cells, of 2^24 that are allowed, is not narrower, in words.
-pub fn ended_in_words(cells: u64) -> String {
-    if cells > MOST_CELLS / LAST_PASS {
-        format!("more than {cells} cells are too many")
-    } else {
-        "smaller cells do not make it narrower".to_owned()
-    }
-}
-
 /// Where cells that are done, and narrower intervals, are reported, and what says that it is time to end.
 pub(crate) type Reports<'a> = (Progress<'a>, Narrowed<'a>, Stop<'a>);
 
@@ -151,7 +144,7 @@ pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
     let found = enclosed(reports, (space, coin), accuracy, most_cells);
-    Ok(Estimate::of_enclosure(accuracy, found.interval, found.cells))
+    Ok(Estimate::of_enclosure(accuracy, found))
 }
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.
@@ -188,19 +181,19 @@ fn enclosed(
         }
         let Some((sum, cells)) = found else {
             let interval = best.map_or(Interval { lo: 0.0, hi: 1.0 }, |best| best.interval);
-            return Enclosure { interval, cells: most_cells };
+            return Enclosure { interval, cells: most_cells, is_spent: true };
         };
         done = cells;
         let interval = ends(&sum.widened(left_out));
         let now = interval.width();
         let narrower = best.filter(|best| best.interval.width() <= now);
-        let found = narrower.unwrap_or(Enclosure { interval, cells });
+        let found = narrower.unwrap_or(Enclosure { interval, cells, is_spent: false });
         if narrower.is_none() {
             narrowed(interval);
         }
         best = Some(found);
         if stop() || !passes.is_next(now, cells) {
-            return found;
+            return Enclosure { is_spent: most_cells < LAST_PASS * cells, ..found };
         }
     }
 }

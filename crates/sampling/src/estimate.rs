@@ -14,6 +14,7 @@
 use std::fmt;
 
 use crate::counts::Counts;
+use crate::enclosure::Enclosure;
 use crate::exact_speed::Share;
 use crate::interval::{Interval, clopper_pearson, from_scrambled_points};
 use crate::plan::Plan;
@@ -94,6 +95,11 @@ pub enum Found {
         /// Bound on the rounding error of the mean share.
         rounding_error: f64,
     },
+    /// The sum over the cells of an enclosure.
+    Enclosed {
+        /// Whether its cells are all that were allowed, so that more of them might have made it narrower.
+        is_spent: bool,
+    },
 }
 
 impl Estimate {
@@ -124,8 +130,8 @@ impl Estimate {
     pub fn undecided(&self) -> u64 {
         match self.found {
             Found::Counts(counts) => counts.undecided(),
-            Found::Shares { .. } if self.is_known() => 0,
-            Found::Shares { .. } => self.points,
+            Found::Shares { .. } if !self.is_known() => self.points,
+            Found::Shares { .. } | Found::Enclosed { .. } => 0,
         }
     }
 
@@ -178,7 +184,7 @@ impl Estimate {
         interval_kind: IntervalKind,
     ) -> Self {
         let found = Found::Shares { rounding_error: share.error };
-        if share.error >= 0.5 && interval_kind != IntervalKind::Proven {
+        if share.error >= 0.5 {
             return Self::of_nothing(plan, found, points);
         }
         Self { probability: share.probability, interval, interval_kind, points, found, plan }
@@ -194,10 +200,16 @@ impl Estimate {
         Self::of_share(plan, share, points, Some(interval), IntervalKind::Rounding)
     }
 
-    /// The estimate from an enclosure by so many cells.
-    pub(crate) fn of_enclosure(accuracy: f64, interval: Interval, cells: u64) -> Self {
-        let share = Share::new(0.5 * (interval.lo + interval.hi), 0.0);
-        Self::of_share(Plan::Enclosure { accuracy }, share, cells, Some(interval), IntervalKind::Proven)
+    /// The estimate from an enclosure.
+    pub(crate) fn of_enclosure(accuracy: f64, Enclosure { interval, cells, is_spent }: Enclosure) -> Self {
+        Self {
+            probability: 0.5 * (interval.lo + interval.hi),
+            interval: Some(interval),
+            interval_kind: IntervalKind::Proven,
+            points: cells,
+            found: Found::Enclosed { is_spent },
+            plan: Plan::Enclosure { accuracy },
+        }
     }
 
     /// The estimate from the mean shares of scrambles with this many points in all. `unresolved` tells what the points do not

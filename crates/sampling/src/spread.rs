@@ -293,6 +293,7 @@ impl Look {
             Found::Counts(counts) => return counts.smallest_probability() >= heads,
             Found::Shares { rounding_error } if rounding_error < ROUNDING => 0.0,
             Found::Shares { rounding_error } => rounding_error,
+            Found::Enclosed { .. } => self.estimate.half_width().unwrap_or(1.0),
         };
         self.estimate.probability - undecided >= heads
     }

@@ -110,6 +110,7 @@ impl Scene {
     #[inline(never)]
     pub fn solve_with(&self, sampler: &Sampler<'_>) -> Result<Answer, Error> {
         let mut choice = self.plan()?.choice;
+        let Want::Probability(_) = self.want else { return choice.run(self) };
         let (mut failed, mut narrowest) = (Vec::new(), None);
         loop {
             failed.push(choice.model);
@@ -124,7 +125,6 @@ impl Scene {
 
     /// What is chosen for a space if the models that `failed` are left out.
     fn next(&self, failed: &[&Model]) -> Result<Option<Choice>, Error> {
-        let Want::Probability(_) = self.want else { return Ok(None) };
         let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
         Ok(cheapest(Vec::new(), others).map(|decision| decision.choice))
     }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use blackbox::{config, tosses};
 use proptest::prelude::*;
-use sampling::{Axis, Sampler, Space};
+use sampling::{Axis, Found, Sampler, Space};
 use toss::planner::{How, MODELS, Model};
 use toss::{Answer, Body, Choice, Coin, Error, Registry, Scene, Settings, Solver, Stage, Toss, Want};
 
@@ -210,6 +210,7 @@ fn an_enclosure_gives_way_and_is_the_answer_where_nothing_else_serves() {
     let (model, proven) = answer(&figure(), &few.clone().on_progress(&count).until(&is_late));
     assert_eq!((model, proven.is_wider_than_asked()), ("enclosure", true));
     assert!(proven.interval.unwrap().contains(sampled.probability) && proven.half_width() > Some(1e-7));
+    assert_eq!(proven.found, Found::Enclosed { is_spent: true });
     // No sample reaches this accuracy: an enclosure takes what cells it needs, and if it misses, too, it is the answer.
     let finest = Scene { accuracy: 1e-13, ..figure() };
     let (model, found) = answer(&finest, &Sampler::exact());

@@ -1,8 +1,7 @@
 //! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
 //! interval of the estimate with it, as far as the method has one.
 
-use sampling::enclosure::ended_in_words;
-use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
+use sampling::{Estimate, Found, Interval, Method, Plan, Sampler, Space};
 use toss::defaults::{self, ACCURACY, ACCURACY_OF_BODIES, LAUNCHES};
 use toss::solvers::Proving;
 use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
@@ -160,7 +159,10 @@ fn not_reached(found: &Estimate, watch: &Watch) -> String {
         (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked() => {
             let why = match watch.ended() {
                 Some(ended) => ended.in_words().to_owned(),
-                None => ended_in_words(found.points),
+                None if found.found == (Found::Enclosed { is_spent: true }) => {
+                    format!("more than {} cells are too many", found.points)
+                }
+                None => "smaller cells do not make it narrower".to_owned(),
             };
             let reached = quantity::rounded_up(reached);
             format!("\naccuracy     {reached}, and not the {accuracy:e} that was asked for: {why}")

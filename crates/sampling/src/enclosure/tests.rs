@@ -328,6 +328,7 @@ fn a_computation_stops_at_its_number_of_cells() {
     let all = enclosed(SILENT, (&space, coin), 1e-4, MOST_CELLS);
     let few = enclosed(SILENT, (&space, coin), 1e-4, all.cells - 1);
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
+    assert_eq!([all.is_spent, few.is_spent], [false, true]);
     // What was proven is the answer, and says that it is not what was asked for.
     let found = estimate(SILENT, &space, 1e-4, all.cells - 1).unwrap();
     assert_eq!((found.interval, found.points), (Some(few.interval), few.cells));

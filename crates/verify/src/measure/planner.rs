@@ -64,8 +64,9 @@ pub(super) fn random_scenes(context: &Context) -> anyhow::Result<Vec<Planned>> {
     Ok(planned)
 }
 
-/// Solves a scene about a toss. Similar tosses are tried, too, if it `is_expected` that its error may be small by luck.
-pub(super) fn solve(kind: &'static str, scene: &Scene, is_expected: bool) -> anyhow::Result<Planned> {
+/// Solves a scene about a toss. If its error is far below the expected one, it may be small by luck: then similar tosses are
+/// solved, too, if `tries_similar`.
+pub(super) fn solve(kind: &'static str, scene: &Scene, tries_similar: bool) -> anyhow::Result<Planned> {
     let toss = toss_of(scene);
     let wanted = scene.want.kind().name();
     let by = |by: &Integrator| format!(" by {} {}", by.solver, by.scheme.as_deref().unwrap_or("any"));
@@ -80,7 +81,7 @@ pub(super) fn solve(kind: &'static str, scene: &Scene, is_expected: bool) -> any
     };
     let error = error(scene, &choice.run(scene)?)?;
     let expected = choice.expected_error;
-    let is_far_below = is_expected && expected > 30.0 * error.max(ROUNDING);
+    let is_far_below = tries_similar && expected > 30.0 * error.max(ROUNDING);
     let error_of_family =
         if is_far_below { error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0)) } else { error };
     let by_expected = error_of_family / expected.max(ROUNDING);
@@ -153,9 +154,9 @@ fn neighbour(toss: &Toss, seed: u64, index: u64) -> Result<Toss, InputError> {
     Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..*toss })
 }
 
-/// Scene number `index` of the sequence that `seed` starts, with its kind: what is wanted, or `integrator` if it asks for one. Of ten scenes three want an outcome, three cos θ, two an
-/// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
-/// 1e-2 to 1e-11.
+/// Scene number `index` of the sequence that `seed` starts, with its kind: what is wanted, or `integrator` if it asks for one.
+/// Of ten scenes three want an outcome, three cos θ, two an attitude and one a trace, with accuracies from 1e-2 to 2e-15; the
+/// tenth asks for an integrator, with accuracies from 1e-2 to 1e-11.
 fn toss_scene(seed: u64, index: u64) -> Result<(&'static str, Scene), InputError> {
     let mut rng = stream(seed, index);
     let toss = random_toss(&mut rng)?;

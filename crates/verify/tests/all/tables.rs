@@ -10,7 +10,7 @@ fn probability_tables() {
             let [heads, tails, undecided] = [counts.heads(), counts.tails(), counts.undecided()];
             format!("{space} {method}: {heads} heads, {tails} tails, {undecided} undecided")
         }
-        Found::Shares { .. } => format!("{space} {method}: {:.12}", estimate.probability),
+        Found::Shares { .. } | Found::Enclosed { .. } => format!("{space} {method}: {:.12}", estimate.probability),
     };
     let lines: Vec<String> = verify::measure::tables::tables().unwrap().into_iter().map(line).collect();
     insta::assert_snapshot!("probability_tables", lines.join("\n"));

@@ -102,6 +102,8 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {
     match sampler.estimate(space, plan)?.found {
         Found::Counts(counts) => Ok(counts),
-        Found::Shares { .. } => anyhow::bail!("a plan of launches gave a share instead of counts"),
+        Found::Shares { .. } | Found::Enclosed { .. } => {
+            anyhow::bail!("a plan of launches gave a share instead of counts")
+        }
     }
 }

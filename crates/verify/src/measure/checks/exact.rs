@@ -236,7 +236,11 @@ fn varied_cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
 fn varied_attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
     let mut found = [[0.0]; 4];
     varied(toss, |tosses| tosses.attitudes(found.each_mut().map(<[f64; 1]>::as_mut_slice)))?;
-    Ok(Attitude::from_components(found.map(|[part]| part)).map_or(0.0, |attitude| reference.attitude_error(&attitude)))
+    let found = found.map(|[part]| part);
+    if found[0].is_nan() {
+        return Ok(0.0);
+    }
+    Ok(Attitude::from_components(found).map_or(f64::INFINITY, |attitude| reference.attitude_error(&attitude)))
 }
 
 /// Hands `toss` to `solve`, as launches that vary in all.
