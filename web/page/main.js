@@ -204,6 +204,7 @@ function aimed(direction) {
 main().catch((error) => {
   byId("outcome").textContent = "The page can't start";
   byId("proof").textContent = error.message;
+  document.documentElement.dataset.ready = "never";
 });
 window.tossState = state;
 window.tossAddress = address;

@@ -21,41 +21,55 @@ mkdirSync(PICTURES, { recursive: true });
 const index = pathToFileURL(join(PAGE, "index.html")).href;
 const found = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
 
-/** Starts the browser. It does without a sandbox, which a container does not give, and without a graphics card. */
+/**
+ * Starts the browser. It does without a sandbox, which a container does not give, and without a graphics card: WebGL alone
+ * is emulated, as an emulated card would take twice as long for the rest of the page.
+ */
 export const launchBrowser = () =>
   chromium.launch({
     executablePath: found,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"],
+    args: ["--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader", "--disable-background-networking"],
   });
 
+/** What the browser says because it has to copy what WebGL draws. */
+const COPIED = "GPU stall due to ReadPixels";
+
 /**
- * Opens the page at `address`, the part behind the #, and waits for its first answer, or for the scene too. Whatever the
- * console says, and every request that is not for a file of the page, is kept in `page.faults`. `before` runs in the page
- * before its scripts.
+ * Opens the page at `address`, the part behind the #, and waits for its first answer, or for the scene too, or for an error
+ * that ends the wait. Whatever the console says, and every request that is not for a file of the page, is kept in
+ * `page.faults`. `before` runs in the page before its scripts.
  */
 export async function open(browser, address = "", { until = "answer", before = null, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce", ...options });
   context.setDefaultTimeout(120_000);
   const page = await context.newPage();
+  if (until === "answer") await page.addInitScript(withoutScene);
   if (before) await page.addInitScript(before);
   page.faults = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.faults.push(message.text()));
+  const isFault = (message) => ["error", "warning"].includes(message.type()) && !message.text().includes(COPIED);
+  page.on("console", (message) => isFault(message) && page.faults.push(message.text()));
   page.on("pageerror", (error) => page.faults.push(error.message));
   page.on("request", (request) => !isOwn(request.url()) && page.faults.push(`a request for ${request.url()}`));
-  await page.goto(address ? `${index}#${address}` : index);
-  await ready(page, until);
+  const thrown = new Promise((_, reject) => page.once("pageerror", reject));
+  await Promise.race([thrown, page.goto(address ? `${index}#${address}` : index).then(() => ready(page, until))]);
   return page;
 }
 
+/** Scenes take most of the time of a page, without a graphics card. */
+const withoutScene = () => Object.defineProperty(window, "makeScene", { set: () => {}, get: () => null });
+
 const isOwn = (url) => url.startsWith(pathToFileURL(PAGE).href) || url.startsWith("data:") || url.startsWith("blob:");
 
-/** Waits for the first answer, or for the scene. */
-export const ready = (page, until) =>
-  page.waitForFunction(
-    (until) => ["scene", until].includes(document.documentElement.dataset.ready),
+/** Waits for the first answer, or for the scene; the page says when there will be none. */
+export async function ready(page, until) {
+  await page.waitForFunction(
+    (until) => ["scene", "never", until].includes(document.documentElement.dataset.ready),
     until,
     { timeout: 180_000 },
   );
+  const hasFailed = await page.evaluate(() => document.documentElement.dataset.ready === "never");
+  if (hasFailed) assert.fail(`the page can't start: ${await text(page, "proof")}`);
+}
 
 /** Closes a page that had no faults. */
 export async function close(page) {

@@ -36,7 +36,7 @@ const fn part(name: &'static str, builds: &'static [&'static str], reads: &'stat
     Part { name, always: false, builds, reads }
 }
 
-const PARTS: [Part; 11] = [
+const PARTS: [Part; 10] = [
     Part { always: true, ..part("tests", &[], &[]) },
     Part { always: true, ..part("lints", &[], &[]) },
     Part { always: true, ..part("suite", &[], &[]) },
@@ -58,7 +58,6 @@ const PARTS: [Part; 11] = [
             "README.md",
         ],
     ),
-    part("fuzz", &["unfair-toss-fuzz"], &[]),
     // What a package is made of beside its sources, and the pages with crates of a reader. In the sources, `lints` finds what
     // an older Rust does not have and what one set of features lacks.
     part(
@@ -124,7 +123,7 @@ const DOCUMENTS: [&str; 15] = [
 const OF_ITS_OWN_TESTS: [&str; 3] = ["tests/", "benches/", "examples/"];
 
 /// The manifests of the workspace and of the packages outside it.
-const MANIFESTS: [&str; 4] = ["Cargo.toml", "web/Cargo.toml", "fuzz/Cargo.toml", "crates/contestants/Cargo.toml"];
+const MANIFESTS: [&str; 2] = ["Cargo.toml", "crates/contestants/Cargo.toml"];
 
 impl Affected {
     pub(crate) fn run() -> Result<ExitCode, String> {
@@ -280,14 +279,14 @@ mod tests {
 
     #[test]
     fn a_crate_affects_what_is_built_from_it() {
-        let numerical = ["instructions", "contestants", "fuzz", "python", "web", "aarch64"];
+        let numerical = ["instructions", "contestants", "python", "web", "aarch64"];
         assert_eq!(parts(&["crates/exact/src/lib.rs"]), always_and(&numerical));
         let manifest = [numerical.as_slice(), &["packages"]].concat();
         assert_eq!(parts(&["crates/numerics/Cargo.toml"]), always_and(&manifest));
         assert_eq!(parts(&["crates/verify/src/main.rs"]), always_and(&["instructions", "contestants"]));
         let asked = ["crates/verify/src/process/protocol.rs"];
         assert_eq!(parts(&asked), always_and(&["instructions", "contestants", "python"]));
-        assert_eq!(parts(&["crates/cli/src/main.rs"]), always_and(&["fuzz", "python", "web"]));
+        assert_eq!(parts(&["crates/cli/src/main.rs"]), always_and(&["python", "web"]));
         assert_eq!(parts(&["web/page/main.js"]), always_and(&["web"]));
         assert_eq!(parts(&["bindings/python/tests/test_toss.py", "docs/json.md"]), always_and(&["python"]));
     }

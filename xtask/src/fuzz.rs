@@ -49,7 +49,7 @@ impl Fuzz {
                 std::fs::create_dir_all(folder)
                     .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
             }
-            let mut program = Command::new(folder.join(&host).join("release/unfair-toss-fuzz"));
+            let mut program = Command::new(folder.join(&host).join("fuzz/unfair-toss-fuzz"));
             program.env("TARGET", target);
             match &self.input {
                 Some(file) => program.arg(file),
@@ -79,8 +79,8 @@ fn host() -> Result<String, String> {
 
 fn build(host: &str) -> Result<(), String> {
     let mut command = cargo();
-    command.args(["build", "--locked", "--release", "--features", "libfuzzer", "--target", host]);
-    command.arg("--manifest-path").arg(root().join("fuzz/Cargo.toml"));
+    command.args(["build", "--locked", "--package", "unfair-toss-fuzz", "--features", "libfuzzer"]);
+    command.args(["--profile", "fuzz", "--target", host]);
     command.arg("--target-dir").arg(root().join("target/fuzz")).env("RUSTFLAGS", INSTRUMENTATION);
     let status = command.status().map_err(|error| format!("cannot start cargo: {error}"))?;
     if status.success() {

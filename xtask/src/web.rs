@@ -27,7 +27,7 @@ impl Web {
         let web = root().join("web");
         let page = root().join("target/web");
         require_target()?;
-        let library = build_library(&web)?;
+        let library = build_library()?;
         install(&web)?;
         succeed(Command::new("node").current_dir(&web).arg("build.mjs").arg(library).arg(&page), NODE)?;
         let index = page.join("index.html");
@@ -52,12 +52,12 @@ fn require_target() -> Result<(), String> {
 }
 
 /// Builds the library, and gives its file.
-fn build_library(web: &Path) -> Result<PathBuf, String> {
+fn build_library() -> Result<PathBuf, String> {
     let folder = root().join("target/web-build");
     let mut command = cargo();
-    command.args(["build", "--locked", "--release", "--target", TARGET, "--manifest-path"]).arg(web.join("Cargo.toml"));
+    command.args(["build", "--locked", "--package", "web", "--profile", "page", "--target", TARGET]);
     succeed(command.arg("--target-dir").arg(&folder), "the library was not built")?;
-    Ok(folder.join(TARGET).join("release/web.wasm"))
+    Ok(folder.join(TARGET).join("page/web.wasm"))
 }
 
 /// Installs what npm's lock file names, unless that was done since it changed.

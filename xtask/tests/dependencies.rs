@@ -24,6 +24,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("xtask", &[]),
     ("blackbox", &["toss", "dynamics"]),
     ("unfair-toss-python", &["toss", "sampling", "exact", "dynamics"]),
+    ("unfair-toss-fuzz", &["unfair-toss", "toss", "sampling", "dynamics"]),
+    ("web", &["toss", "sampling", "exact", "dynamics"]),
 ];
 
 /// The packages of the workspace, as `cargo metadata` describes them.
