@@ -55,7 +55,7 @@ export async function open(browser, address = "", { until = "answer", before = n
   return page;
 }
 
-/** Scenes take most of the time of a page, without a graphics card. */
+/** A page that waits for its answer alone draws no scene, which takes most of its time without a graphics card. */
 const withoutScene = () => Object.defineProperty(window, "makeScene", { set: () => {}, get: () => null });
 
 const isOwn = (url) => url.startsWith(pathToFileURL(PAGE).href) || url.startsWith("data:") || url.startsWith("blob:");

@@ -28,7 +28,7 @@ test("each preset is chosen, shown as chosen, and kept by the address", async ()
 test("the address carries the scene and the view there and back", async () => {
   const given =
     "cylinder=5.67g,12.13mm,1.75mm&turn=38rev/s&psi=60deg&speed=2.45m/s&gravity=1.62&drop=10cm&tilt=-3deg&map=speed&shade=chance&spread=2%25&scheme=taylor&tolerance=1e-6&pace=0.03";
-  const page = await open(browser, given);
+  const page = await open(browser, given, { until: "scene" });
   assert.equal(await address(page), given);
   await page.selectOption("#map-over", "rate_z");
   assert.equal(await address(page), given.replace("&map=speed", ""));
@@ -358,7 +358,7 @@ test("in light and dark, on a screen and a phone, no rule of WCAG 2.2 AA is brok
 
 test("controls and lines stand out by 3 : 1, and what has the focus is outlined and in the order of the page", async () => {
   for (const colorScheme of ["light", "dark"]) {
-    const page = await open(browser, "preset=cheated", { colorScheme });
+    const page = await open(browser, "preset=cheated", { until: "scene", colorScheme });
     const faint = await page.evaluate(() => {
       const luminance = (colour) => {
         const parts = colour.match(/[\d.]+/g).slice(0, 3).map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
@@ -553,7 +553,7 @@ test("a class's own counts are drawn, explained by ψ, and kept by the address; 
 
 test("on every screen the sliders can be held, the presets seen and the buttons hit", async () => {
   for (const [width, height] of [[320, 640], [390, 844], [844, 390], [1280, 800]]) {
-    const page = await open(browser, "", { viewport: { width, height } });
+    const page = await open(browser, "", { until: "scene", viewport: { width, height } });
     const boxes = (selector) => page.locator(selector).evaluateAll((all) => all.map((one) => one.getBoundingClientRect()).filter((box) => box.width > 0));
     for (const box of await boxes(".quantity input[type=range]")) assert.ok(box.width >= 100, `${width}: ${box.width}`);
     for (const box of await boxes("#presets button")) assert.ok(box.left >= 0 && box.right <= width, `${width}: ${box.right}`);
@@ -604,7 +604,7 @@ test("the picture and the flight are saved as they are shown", async () => {
 });
 
 test("the theme is remembered, and copying says where the link works", async () => {
-  const page = await open(browser, "", { permissions: ["clipboard-write", "clipboard-read"] });
+  const page = await open(browser, "", { until: "scene", permissions: ["clipboard-write", "clipboard-read"] });
   const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
   const first = await theme();
   await page.click("#theme");
