@@ -181,8 +181,11 @@ class _Run:
                 program = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said, env=environment)
             except OSError as error:
                 raise ProgramError(f"{command[0]} can't be started: {error}; {_WAY_OUT}", field="program", valid=_WAY_OUT) from None
+            # Not by `poll` in this thread: interrupted inside of it, it keeps a lock for which `wait` would wait for ever.
+            end = threading.Thread(target=program.wait, daemon=True)
+            end.start()
             try:
-                while program.poll() is None and self.failure is None:
+                while program.returncode is None and self.failure is None:
                     if select.select([server], [], [], _LOOK)[0]:
                         connections.append(server.accept()[0])
                         # With the context of the caller, which has NumPy's handling of errors.
@@ -190,7 +193,7 @@ class _Run:
                         threading.Thread(target=run, args=(self.serve, connections[-1]), daemon=True).start()
             finally:
                 program.kill()
-                program.wait()
+                end.join()
                 for connection in connections:
                     connection.close()
             if self.failure is not None:
