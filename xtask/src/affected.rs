@@ -36,14 +36,13 @@ const fn part(name: &'static str, builds: &'static [&'static str], reads: &'stat
     Part { name, always: false, builds, reads }
 }
 
-const PARTS: [Part; 10] = [
+const PARTS: [Part; 9] = [
     Part { always: true, ..part("tests", &[], &[]) },
     Part { always: true, ..part("lints", &[], &[]) },
     Part { always: true, ..part("suite", &[], &[]) },
     part("instructions", &["verify", "xtask"], &["validation/baseline/"]),
-    // Whether the contestants compile ...
-    part("contestants", &["contestants"], &[]),
-    // ... and what they reach, which depends on their code and on the driver that flies them.
+    // Whether the contestants compile and what they reach, which depends on their code and on the driver that flies them. A
+    // change of another crate that they would not compile with is found in the next run of every part.
     part(
         "contest",
         &[],
@@ -279,13 +278,13 @@ mod tests {
 
     #[test]
     fn a_crate_affects_what_is_built_from_it() {
-        let numerical = ["instructions", "contestants", "python", "web", "aarch64"];
+        let numerical = ["instructions", "python", "web", "aarch64"];
         assert_eq!(parts(&["crates/exact/src/lib.rs"]), always_and(&numerical));
         let manifest = [numerical.as_slice(), &["packages"]].concat();
         assert_eq!(parts(&["crates/numerics/Cargo.toml"]), always_and(&manifest));
-        assert_eq!(parts(&["crates/verify/src/main.rs"]), always_and(&["instructions", "contestants"]));
+        assert_eq!(parts(&["crates/verify/src/main.rs"]), always_and(&["instructions"]));
         let asked = ["crates/verify/src/process/protocol.rs"];
-        assert_eq!(parts(&asked), always_and(&["instructions", "contestants", "python"]));
+        assert_eq!(parts(&asked), always_and(&["instructions", "python"]));
         assert_eq!(parts(&["crates/cli/src/main.rs"]), always_and(&["python", "web"]));
         assert_eq!(parts(&["web/page/main.js"]), always_and(&["web"]));
         assert_eq!(parts(&["bindings/python/tests/test_toss.py", "docs/json.md"]), always_and(&["python"]));
@@ -293,7 +292,7 @@ mod tests {
 
     #[test]
     fn the_contestants_fly_when_they_or_their_driver_change() {
-        assert_eq!(parts(&["crates/contestants/src/main.rs"]), always_and(&["contestants", "contest"]));
+        assert_eq!(parts(&["crates/contestants/src/main.rs"]), always_and(&["contest"]));
         assert!(parts(&["crates/dynamics/src/integrate.rs"]).contains("contest"));
         assert!(root().join("crates/dynamics/src/integrate.rs").is_file());
         assert!(!parts(&["crates/exact/src/lib.rs", "crates/dynamics/src/coin.rs"]).contains("contest"));
@@ -333,8 +332,7 @@ mod tests {
     fn the_rows_name_what_is_there() {
         let list = Command::new("bash").arg(root().join(".ci/run")).args(["--all", "--list"]).output().expect("bash");
         let text = String::from_utf8(list.stdout).expect("text");
-        let mut listed: BTreeSet<&str> = text.lines().map(|line| line.split('\t').next().unwrap_or(line)).collect();
-        assert!(listed.insert("contestants"), "`contest` does what it does");
+        let listed: BTreeSet<&str> = text.lines().map(|line| line.split('\t').next().unwrap_or(line)).collect();
         assert_eq!(listed, every_part());
         let packages = Packages::of_the_repository().expect("the manifests");
         for part in PARTS {

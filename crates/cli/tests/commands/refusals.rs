@@ -246,7 +246,7 @@ fn threads_that_cannot_start_are_no_bad_input_and_one_needs_none() {
     for arguments in [
         "plan --space tails --want probability --accuracy 1e-2",
         "intervals --rate 1,1,2 --speed 2:3",
-        "toss --rate 1,2,3 --coin racket --speed 3 --margin",
+        "toss --rate 1,2,3 --moments 1,2,2.5 --time 0.1 --margin",
     ] {
         let alone = limited(arguments).unwrap();
         assert_eq!(
