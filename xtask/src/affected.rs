@@ -73,6 +73,7 @@ const PARTS: [Part; 9] = [
             "crates/kinematics-euler/Cargo.toml",
             "crates/kinematics-quat/Cargo.toml",
             "crates/numerics/Cargo.toml",
+            "crates/reference/Cargo.toml",
             "crates/sampling/Cargo.toml",
             "crates/toss/Cargo.toml",
             "crates/verify/Cargo.toml",

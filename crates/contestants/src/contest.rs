@@ -11,7 +11,7 @@ use verify::clock;
 use verify::host::Host;
 use verify::measure::atlas::Atlas;
 use verify::measure::atlas::hazards::HAZARDS;
-use verify::measure::reference::Reference;
+use reference::Reference;
 use verify::measure::run::{Answer, Run};
 use verify::measure::subject::{Subject, subjects, tight, usual};
 use verify::measure::survey::Survey;

@@ -12,7 +12,7 @@ use toss::{Formulation, StepControl, Stepping};
 use super::program::Foreign;
 use crate::measure::atlas;
 use crate::measure::case;
-use crate::measure::reference::Reference;
+use crate::measure::reference;
 use crate::measure::run::Run;
 use crate::render::report::{PROPOSAL, Report, Verdict};
 use crate::render::{diagnosis, github, junit, text};
@@ -219,7 +219,7 @@ fn as_row(
 /// say nothing about a foreign program. It passes if every solver in its default formulation answers as it should.
 fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -> anyhow::Result<(bool, String)> {
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
-    let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, Reference::of(toss)?);
+    let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, reference::of(toss)?);
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = by_default.into_iter().all(|(_, run)| run.passes());

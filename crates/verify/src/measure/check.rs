@@ -12,7 +12,7 @@ use toss::{CoinToss, Landing, SolveError};
 
 use crate::measure::context::Context;
 use crate::measure::families::Family;
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::survey::{Landings, Survey};
@@ -277,7 +277,7 @@ impl Check {
         toss: &Toss,
         is_asked: &dyn Fn(&str) -> bool,
     ) -> anyhow::Result<Vec<Measurement>> {
-        Reference::of(toss)?;
+        reference::of(toss)?;
         self.rows(self.measure, context, Some((toss, is_asked)))
     }
 

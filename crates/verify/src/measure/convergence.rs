@@ -18,7 +18,7 @@ use toss::{
     Coin, CoinMotion, Formulation, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State, Stepping, Toss,
 };
 
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::subject::Subject;
 use crate::measure::tosses::random_flights;
 
@@ -47,7 +47,7 @@ pub struct Convergence {
 /// Measures every integrator of `registry` with each scheme that takes fixed steps and has an order.
 pub(crate) fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
-    let flights = tosses.into_iter().map(|toss| Ok((toss, Reference::of(&toss)?)));
+    let flights = tosses.into_iter().map(|toss| Ok((toss, reference::of(&toss)?)));
     let flights: Vec<(Toss, Reference)> = flights.collect::<anyhow::Result<_>>()?;
     let integrators = registry.iter().filter(|entry| entry.integrates());
     let subjects: Vec<(&SolverEntry, Scheme, u32)> = integrators

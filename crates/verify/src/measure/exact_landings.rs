@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use dynamics::Toss;
 
 use super::case;
-use super::reference::Reference;
+use super::reference::{self, Reference};
 
 /// So many landings are kept, of about a kilobyte each; further ones are computed again.
 const KEPT: usize = 200_000;
@@ -23,7 +23,7 @@ impl ExactLandings {
         if let Some(known) = self.known().get(&text) {
             return known.clone();
         }
-        let landing = Reference::of(toss).ok().map(Arc::new);
+        let landing = reference::of(toss).ok().map(Arc::new);
         let mut known = self.known();
         if known.len() < KEPT {
             known.insert(text, landing.clone());

@@ -4,7 +4,7 @@
 //! | what | where |
 //! |---|---|
 //! | what is measured: a solver with its settings; the text of a toss; both together; how a worst case is repeated | [`subject`], `case`, [`run`], [`replay`] |
-//! | the judge: the reference of every toss, each computed once, and numbers from outside the workspace | [`mod@reference`], [`exact_landings`] |
+//! | the judge: the reference of every toss, each computed once, and numbers from outside the workspace | [`mod@reference`], [`exact_landings`], `outside` |
 //! | claims, and how the trials of a subject become one measurement | [`check`], [`checks`], [`trial`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
 //! | tosses: random ones and of last bits, bodies by families, those of an adversary, flights at the finest tolerances | `tosses`, `families`, `adversary`, `hostile` |
@@ -28,6 +28,7 @@ pub mod effort;
 pub mod exact_landings;
 mod families;
 mod hostile;
+mod outside;
 pub(crate) mod planner;
 pub mod reference;
 pub mod replay;

@@ -22,7 +22,7 @@ use toss::{
 
 use crate::measure::case;
 use crate::measure::context::Context;
-use crate::measure::reference::Reference;
+use crate::measure::reference;
 use crate::measure::tosses::{decades, level_or_tilted, stream, tossed};
 
 const SEED: u64 = 12;
@@ -211,7 +211,7 @@ pub(super) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
 fn error(scene: &Scene, answer: &Answer) -> anyhow::Result<f64> {
     let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
     let toss = toss_of(scene);
-    let landing = Reference::of(toss)?;
+    let landing = reference::of(toss)?;
     Ok(match answer {
         Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
             wrong(landing.cos_tilt_error(0.0) > 2.0 * scene.accuracy)
@@ -226,7 +226,7 @@ fn error(scene: &Scene, answer: &Answer) -> anyhow::Result<f64> {
                 let is_landing = *time == toss.launch.flight_time();
                 let time = if is_landing { toss.launch.time_of_flight() } else { TimeOfFlight::Given(*time) };
                 let until = toss.launch.with_time_of_flight(time)?;
-                largest = largest.max(Reference::of(&Toss { launch: until, ..*toss })?.attitude_error(attitude));
+                largest = largest.max(reference::of(&Toss { launch: until, ..*toss })?.attitude_error(attitude));
             }
             largest
         }

@@ -6,11 +6,11 @@ use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
+use reference::Reference;
 use toss::quantity::{Quantity, Unit};
 use toss::{
     Attitude, Batch, Coin, CoinToss, InputError, Launch, Outcome, Solver, TimeOfFlight, Tosses, Vector3, certify,
 };
-use verify::measure::reference::Reference;
 
 /// The numbers of a toss, each of which can be moved, and how the toss is made of them.
 #[derive(Clone, Copy)]

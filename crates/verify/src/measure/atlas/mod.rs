@@ -14,7 +14,7 @@ use serde::Serialize;
 use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::run::{Answer, Run};
 use crate::measure::subject::{Subject, by_scheme, usual};
 use hazards::{HAZARDS, Hazard, SLOW};
@@ -108,7 +108,7 @@ struct Place {
 impl Place {
     fn new(hazard: &Hazard, distance: f64) -> anyhow::Result<Self> {
         let toss = (hazard.toss)(distance)?;
-        Ok(Self { hazard: hazard.id, distance, toss, exact: Reference::of(&toss)? })
+        Ok(Self { hazard: hazard.id, distance, toss, exact: reference::of(&toss)? })
     }
 
     fn flown(&self, subject: &Subject) -> Spot {

@@ -8,7 +8,7 @@ use toss::{Coin, InputError, Launch, Outcome, TimeOfFlight, Toss, Vector3};
 use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
-use crate::measure::reference::Reference;
+use crate::measure::reference;
 use crate::measure::trial::Measurement;
 
 pub(super) const CHECKS: &[Check] =
@@ -79,7 +79,7 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         let points: u32 = axes.iter().map(|(.., points)| points).product();
         let mut expected = [0_u64; 3];
         for index in 0..points {
-            match Reference::of(&toss(values(axes, index))?)?.outcome() {
+            match reference::of(&toss(values(axes, index))?)?.outcome() {
                 Outcome::Heads => expected[0] += 1,
                 Outcome::Tails => expected[1] += 1,
                 Outcome::Undecided => expected[2] += 1,

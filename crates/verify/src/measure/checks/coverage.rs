@@ -20,7 +20,7 @@ use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
-use crate::measure::reference::outside::ReferenceProbabilities;
+use crate::measure::outside::ReferenceProbabilities;
 use crate::measure::trial::Measurement;
 
 pub(super) const CHECKS: &[Check] = &[Check::of_library("interval-coverage", Own(coverage)).by(CrossMethod).claims(

@@ -22,7 +22,7 @@ use crate::measure::check::Measure::Tosses;
 use crate::measure::check::{Check, Set, coin};
 use crate::measure::context::Context;
 use crate::measure::families::{FAMILIES, Family, LONG, launches};
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
 use crate::measure::trial::Deviation;
 
@@ -336,7 +336,7 @@ fn terms_error(toss: &Toss, _: &Reference) -> Deviation {
     let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(0.0)).expect("a valid time");
     let toss = CoinToss { launch, ..coin(toss)? };
     let (cos_tilt, _) = CoinMotion::new(&toss).cos_tilt_parts(0.0)?;
-    Ok(Reference::new(&toss).unrounded_cos_tilt_error(cos_tilt))
+    Ok(reference::of_coin(&toss).unrounded_cos_tilt_error(cos_tilt))
 }
 
 fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
@@ -369,7 +369,7 @@ pub(super) fn at_an_edge(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> 
         Some(Toss { launch, ..*toss })
     };
     let near = edge_near(toss, cos_tilt)?;
-    let edge = near + Reference::of(&until(near)?).ok()?.time_to_an_edge();
+    let edge = near + reference::of(&until(near)?).ok()?.time_to_an_edge();
     // By turns 3 ulp before and behind the edge.
     let ulps = (edge.to_bits() % 7) as i64 - 3;
     (edge > 0.0).then(|| until(f64::from_bits(edge.to_bits().wrapping_add_signed(ulps)))).flatten()
@@ -437,7 +437,7 @@ fn differences(toss: &CoinToss) -> (Matrix3x4<f64>, Vector4<f64>) {
     let inputs = Vector4::new(rate.x, rate.y, rate.z, time);
     let landing = |inputs: &Vector4<f64>| {
         let launch = Launch::new(inputs.xyz(), TimeOfFlight::Given(inputs.w)).expect("next to a valid launch");
-        Reference::new(&CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+        reference::of_coin(&CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
     };
     for input in 0..4 {
         let size = if input == 3 { time } else { rate.norm() };

@@ -14,7 +14,7 @@ use crate::measure::check::Measure::Tosses;
 use crate::measure::check::{Check, Set, coin};
 use crate::measure::context::Context;
 use crate::measure::families::{Family, HARD, hard_number, hard_tosses_of};
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::tosses::random;
 use crate::measure::trial::Deviation;
 
@@ -131,7 +131,7 @@ fn wrong_margins_of_bodies(toss: &Toss, reference: &Reference) -> Deviation {
 fn number_of_wrong(toss: &Toss, outcome: Outcome, looks: u32, margins: &[(Input, Option<f64>, f64)]) -> f64 {
     let is_right = |((value, changed), margin, range): &&(Input, Option<f64>, f64)| {
         let stays = |change: f64| {
-            let after = changed(toss, change).and_then(|toss| Reference::of(&toss).ok());
+            let after = changed(toss, change).and_then(|toss| reference::of(&toss).ok());
             after.map(|after| after.outcome() == outcome)
         };
         let is_same_up_to = |range: f64| {
@@ -142,7 +142,7 @@ fn number_of_wrong(toss: &Toss, outcome: Outcome, looks: u32, margins: &[(Input,
         let close = CLOSE.max(4.0 * f64::EPSILON * value(toss).abs() / margin.abs());
         // A flip after more turns than the reference can fly is not judged.
         let flips = changed(toss, margin * (1.0 + close))
-            .is_some_and(|after| Reference::of(&after).map_or(true, |after| after.outcome() != outcome));
+            .is_some_and(|after| reference::of(&after).map_or(true, |after| after.outcome() != outcome));
         flips && is_same_up_to(margin.abs() * (1.0 - close))
     };
     (margins.len() - margins.iter().filter(is_right).count()) as f64
@@ -185,7 +185,7 @@ fn wrong_among(toss: &Toss, [slowest, fastest]: [f64; 2], heads: &[[f64; 2]]) ->
     let is_wrong = |speed: &&f64| {
         let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(*speed));
         let there = throw(toss, [**speed - thrown(toss)[0], 0.0]);
-        let there = there.and_then(|there| Reference::of(&there).ok());
+        let there = there.and_then(|there| reference::of(&there).ok());
         there.is_some_and(|there| (there.outcome() == Outcome::Heads) != expected)
     };
     speeds.iter().filter(is_wrong).count()

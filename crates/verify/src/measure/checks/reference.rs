@@ -17,7 +17,7 @@ use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::check::ceiling::{ATTITUDE, COS_TILT};
 use crate::measure::context::Context;
-use crate::measure::reference::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
+use crate::measure::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::trial::{Fold, Measurement, Trial};

@@ -11,7 +11,7 @@ use crate::measure::check::Check;
 use crate::measure::check::Measure::Own;
 use crate::measure::context::Context;
 use crate::measure::convergence::{Convergence, error};
-use crate::measure::reference::Reference;
+use crate::measure::reference;
 use crate::measure::run::Answer;
 use crate::measure::subject::{Subject, usual};
 use crate::measure::tosses::random_flights;
@@ -76,7 +76,7 @@ fn proportion(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5"), (Tilt, "0:3")];
     let tosses = random_flights(&Space::parse(Coin::PAPER, &axes)?, 1, FLIGHTS)?;
     let flights: Vec<_> =
-        tosses.into_iter().map(|toss| Ok((toss, Reference::of(&toss)?))).collect::<anyhow::Result<_>>()?;
+        tosses.into_iter().map(|toss| Ok((toss, reference::of(&toss)?))).collect::<anyhow::Result<_>>()?;
     let mut measurements = Vec::new();
     for entry in &context.registry {
         for scheme in entry.schemes().iter().filter(|scheme| scheme.is_adaptive()) {

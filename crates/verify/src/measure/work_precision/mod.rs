@@ -19,7 +19,7 @@ use toss::{Error, Formulation, InputError, Scheme, SolveError, SolverEntry, Step
 
 use crate::clock;
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::run::{Allowance, Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
@@ -94,7 +94,7 @@ impl Sweep {
         let jobs = jobs(&yardstick::beside(registry), problems, effort)?;
         let references: Vec<Vec<Reference>> = problems
             .iter()
-            .map(|problem| problem.tosses.par_iter().map(Reference::of).collect::<Result<_, _>>())
+            .map(|problem| problem.tosses.par_iter().map(reference::of).collect::<Result<_, _>>())
             .collect::<Result<_, _>>()
             .map_err(SolveError::from)?;
         let mut samples: Vec<Sample> =

@@ -5,7 +5,7 @@ use dynamics::Toss;
 use toss::SolveError;
 
 use super::problems::Problem;
-use crate::measure::reference::Reference;
+use crate::measure::reference::{self, Reference};
 use crate::measure::subject::taylor;
 
 /// The flights of a problem at one tolerance.
@@ -26,7 +26,7 @@ pub struct Proof {
 /// # Errors
 /// [`SolveError`] if a problem has no reference; each has one.
 pub fn proofs(problem: &Problem) -> Result<Vec<Proof>, SolveError> {
-    let exact: Vec<Reference> = problem.tosses.iter().map(Reference::of).collect::<Result<_, _>>()?;
+    let exact: Vec<Reference> = problem.tosses.iter().map(reference::of).collect::<Result<_, _>>()?;
     (0..=24).map(|step| proof(&problem.tosses, &exact, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
 }
 

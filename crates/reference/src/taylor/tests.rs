@@ -1,5 +1,4 @@
-use dynamics::Body;
-use toss::{Launch, TimeOfFlight};
+use dynamics::{Body, Launch, TimeOfFlight};
 
 use super::super::{Reference, decimal};
 use super::*;

@@ -1,6 +1,6 @@
 //! The judge: the landing of a toss of any body, by the numbers that it was given by. Every error in the suite is measured
-//! against it. It shares no code with the solvers, the proofs or the principal axes of a body: a test reads these files
-//! for the names of other crates.
+//! against it. It shares no code with the solvers, the proofs or the principal axes of a body: of this workspace the crate
+//! needs only the toss as it was given and plain types of results, and a test reads its files for other names.
 //!
 //! - `taylor` is the ground truth. It integrates the equations of motion of any body in `fixed` point, for up to
 //!   1000 rad, and bounds its own error.
@@ -11,11 +11,10 @@
 //!
 //! A coin's motion is `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)`, with q = (k - 1) ωz, the inertia ratio k, ωL = |S|/I1,
 //! and ŝ the direction of the angular momentum S in the body frame (BF); ẑ is the coin's normal and Q the attitude.
-//! Tilts, cylinders and units are taken as they were given. `outside` has numbers from elsewhere, with which tests
-//! compare all of it.
+//! Tilts, cylinders and units are taken as they were given. The crate `verify` compares all of it with numbers from
+//! elsewhere.
 
 mod fixed;
-pub(crate) mod outside;
 mod rigid;
 mod taylor;
 
@@ -25,10 +24,8 @@ use std::sync::LazyLock;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use dynamics::Toss;
+use dynamics::{Attitude, Coin, CoinToss, Launch, Outcome, Quantity, SolveError, TimeOfFlight, Toss, Vector3};
 use numerics::DoubleDouble;
-use toss::quantity::Quantity;
-use toss::{Attitude, Coin, CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Vector3};
 
 /// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
@@ -98,7 +95,7 @@ impl Reference {
 
     /// The same by plain numbers: the inertia ratio k, which may be that of no coin, ω (rad/s), the time (s) and the
     /// attitude at launch. This is what a solver lands that takes other numbers than it was given.
-    pub(crate) fn of_numbers(k: f64, rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
+    pub fn of_numbers(k: f64, rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
         Self::of_coin(big(k), rate.map(big), &big(time), &normalised(attitude.map(big)))
     }
 
@@ -121,8 +118,8 @@ impl Reference {
         Self { attitude: product(&product(launch, &turn), &spin), rate, error }
     }
 
-    /// The toss of a coin, or of another body [for which it is solved](rigid), in closed form.
-    pub(crate) fn in_closed_form(toss: &Toss) -> Option<Self> {
+    /// The toss of a coin, or of another body that is given by its moments, in closed form; none where that loses digits.
+    pub fn in_closed_form(toss: &Toss) -> Option<Self> {
         match toss.coin() {
             Some(toss) => Some(Self::new(&toss)),
             None => {
@@ -132,12 +129,12 @@ impl Reference {
         }
     }
 
-    /// The toss of any body by the [ground truth](taylor).
+    /// The toss of any body by the ground truth, the integration in fixed point.
     ///
     /// # Errors
     /// [`NoReference`] for a flight of more than 1000 rad, and for one on which the roundings of the reference grow so
     /// much that it can't vouch for 33 digits, as next to a turn about the middle axis.
-    pub(crate) fn flown(toss: &Toss) -> Result<Self, NoReference> {
+    pub fn flown(toss: &Toss) -> Result<Self, NoReference> {
         let (rate, time) = (rates(&toss.launch), time(toss.launch.time_of_flight()));
         let taylor::Flown { turn, rate, error } =
             taylor::fly(&taylor::tensor(toss), &rate, &time).ok_or(NoReference)?;
@@ -145,12 +142,12 @@ impl Reference {
     }
 
     /// Whether the toss is one of a body that needs elliptic functions.
-    pub(crate) fn is_elliptic(toss: &Toss) -> bool {
+    pub fn is_elliptic(toss: &Toss) -> bool {
         rigid::is_elliptic(toss)
     }
 
     /// The angle between this attitude and that of `other` (rad).
-    pub(crate) fn distance(&self, other: &Self) -> f64 {
+    pub fn distance(&self, other: &Self) -> f64 {
         angle(&self.attitude, &other.attitude)
     }
 
@@ -179,12 +176,13 @@ impl Reference {
         angle(&attitude.components().map(big), &self.attitude)
     }
 
-    /// The attitude, rounded.
-    pub(crate) fn components(&self) -> [f64; 4] {
+    /// The quaternion of the attitude, w first, each component rounded.
+    pub fn components(&self) -> [f64; 4] {
         [0, 1, 2, 3].map(|part| to_f64(&self.attitude[part]))
     }
 
-    pub(crate) fn rounded_cos_tilt(&self) -> f64 {
+    /// cos θ, rounded.
+    pub fn rounded_cos_tilt(&self) -> f64 {
         to_f64(&self.cos_tilt())
     }
 
@@ -207,7 +205,7 @@ impl Reference {
     }
 
     /// How long after the landing cos θ would be 0, to first order (s).
-    pub(crate) fn time_to_an_edge(&self) -> f64 {
+    pub fn time_to_an_edge(&self) -> f64 {
         // cos θ is the third component of n, whose rate of change is that of ω × n.
         let across = [self.rate[1].clone(), -self.rate[0].clone(), big(0.0)];
         to_f64(&(-self.cos_tilt() / &rotated(&self.attitude, &across)[2]))
@@ -228,7 +226,7 @@ fn angle(from: &[Big; 4], to: &[Big; 4]) -> f64 {
 
 /// The time of flight (s).
 fn time(flight: TimeOfFlight) -> Big {
-    let time = match flight {
+    match flight {
         TimeOfFlight::Given(time) => big(time),
         TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
         TimeOfFlight::BallisticTo { speed, gravity, drop } => {
@@ -237,10 +235,7 @@ fn time(flight: TimeOfFlight) -> Big {
             let square = if exact > Big::ZERO { exact.with_precision(PRECISION).value() } else { big(0.0) };
             (big(speed) + square.sqrt()) / big(gravity)
         }
-    };
-    #[cfg(test)]
-    let time = time * &*tests::TIME_FACTOR;
-    time
+    }
 }
 
 /// ω (rad/s).
@@ -341,18 +336,7 @@ fn decimal(text: &str) -> Big {
 
 #[cfg(test)]
 mod tests {
-    use super::outside::ReferenceData;
     use super::*;
-    use crate::measure::case::{self, is_horizontal};
-
-    /// 1, or something else in a process that is to judge wrongly.
-    pub(super) static TIME_FACTOR: LazyLock<Big> = LazyLock::new(|| {
-        let factor = std::env::var(WRONG_TIME).ok().map(|text| text.parse().expect("a number"));
-        big(factor.unwrap_or(1.0))
-    });
-
-    /// The environment variable that makes the reference wrong; `judge` has the tests that set it.
-    const WRONG_TIME: &str = "VERIFY_TEST_WRONG_TIME";
 
     #[test]
     fn sines_and_cosines_are_those_of_dashu_float() {
@@ -363,25 +347,5 @@ mod tests {
                 assert!(off.iter().all(|off| *off < 2f64.powi(-200)), "{angle}: {off:?}");
             }
         }
-    }
-
-    /// Flights whose inputs are exact in f64 agree with the reference numbers in every printed digit, the others to
-    /// within the rounding of their inputs.
-    #[test]
-    fn the_256_bit_motion_agrees_with_the_independent_numbers() {
-        let mut exact_inputs = 0;
-        for flight in ReferenceData::inside().unwrap().flights {
-            let reference = Reference::of(&flight.toss).unwrap();
-            let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt))).abs();
-            let time = flight.toss.launch.time_of_flight();
-            let exact = is_horizontal(&flight.toss.launch)
-                && matches!(time, TimeOfFlight::Given(_) | TimeOfFlight::BallisticTo { gravity: 1.625, .. });
-            exact_inputs += usize::from(exact);
-            let within = if exact { 1e-31 } else { 3e-16 };
-            assert!(error < within, "{}: {error:e}", case::text(&flight.toss));
-            let attitude_error = reference.attitude_error(&flight.attitude);
-            assert!(attitude_error < 3e-16, "{}: {attitude_error:e}", case::text(&flight.toss));
-        }
-        assert!(exact_inputs >= 5);
     }
 }

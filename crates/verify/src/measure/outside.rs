@@ -92,7 +92,7 @@ pub(crate) struct ReferenceLongFlight {
 
 impl ReferenceData {
     pub(crate) fn inside() -> anyhow::Result<Self> {
-        file(include_str!("../../../data/motion.toml"), "motion.toml")
+        file(include_str!("../../data/motion.toml"), "motion.toml")
     }
 }
 
@@ -125,7 +125,7 @@ pub(crate) struct ReferenceShare {
 
 impl ReferenceProbabilities {
     pub(crate) fn inside() -> anyhow::Result<Self> {
-        file(include_str!("../../../data/probability.toml"), "probability.toml")
+        file(include_str!("../../data/probability.toml"), "probability.toml")
     }
     pub(crate) fn figure(&self, name: &str) -> anyhow::Result<f64> {
         let found = self.figures.iter().find(|figure| figure.name == name);
@@ -151,6 +151,47 @@ pub(crate) struct ReferenceCoin {
 
 impl ReferenceCoin {
     pub(crate) fn inside() -> anyhow::Result<Vec<Self>> {
-        Ok(file::<Coins>(include_str!("../../../data/coins.toml"), "coins.toml")?.coin)
+        Ok(file::<Coins>(include_str!("../../data/coins.toml"), "coins.toml")?.coin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::str::FromStr;
+
+    use dashu_float::{DBig, FBig};
+    use numerics::DoubleDouble;
+    use numerics::double_double::two_sum;
+
+    use super::*;
+    use crate::measure::case::{self, is_horizontal};
+    use crate::measure::reference::Reference;
+
+    /// A number in decimal digits, to 32 of them.
+    fn decimal(text: &str) -> DoubleDouble {
+        let value = DBig::from_str(text).expect("a number").with_base_and_precision::<2>(256).value();
+        let hi = value.to_f64().value();
+        let rest = value - FBig::try_from(hi).expect("a finite number");
+        two_sum(hi, rest.to_f64().value())
+    }
+
+    /// Flights whose inputs are exact in f64 agree with the reference numbers in every printed digit, the others to
+    /// within the rounding of their inputs.
+    #[test]
+    fn the_256_bit_motion_agrees_with_the_independent_numbers() {
+        let mut exact_inputs = 0;
+        for flight in ReferenceData::inside().unwrap().flights {
+            let reference = Reference::of(&flight.toss).unwrap();
+            let error = reference.unrounded_cos_tilt_error(decimal(&flight.cos_tilt));
+            let time = flight.toss.launch.time_of_flight();
+            let exact = is_horizontal(&flight.toss.launch)
+                && matches!(time, TimeOfFlight::Given(_) | TimeOfFlight::BallisticTo { gravity: 1.625, .. });
+            exact_inputs += usize::from(exact);
+            let within = if exact { 1e-31 } else { 3e-16 };
+            assert!(error < within, "{}: {error:e}", case::text(&flight.toss));
+            let attitude_error = reference.attitude_error(&flight.attitude);
+            assert!(attitude_error < 3e-16, "{}: {attitude_error:e}", case::text(&flight.toss));
+        }
+        assert!(exact_inputs >= 5);
     }
 }

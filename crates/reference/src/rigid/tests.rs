@@ -1,7 +1,6 @@
 //! Holds the closed form against the ground truth.
 
-use dynamics::Body;
-use toss::{Launch, TimeOfFlight};
+use dynamics::{Body, Launch, TimeOfFlight};
 
 use super::super::Reference;
 use super::*;
