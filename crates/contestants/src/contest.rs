@@ -1,6 +1,7 @@
 //! The contest flies all contestants from the same launches, beside solvers of this workspace: the random launches of
 //! the verification suite, its atlas of hazards, and coins that are far slower and far faster than any hand throws.
 
+use reference::Reference;
 use serde::{Deserialize, Serialize};
 use toss::{
     ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight,
@@ -11,7 +12,6 @@ use verify::clock;
 use verify::host::Host;
 use verify::measure::atlas::Atlas;
 use verify::measure::atlas::hazards::HAZARDS;
-use reference::Reference;
 use verify::measure::run::{Answer, Run};
 use verify::measure::subject::{Subject, subjects, tight, usual};
 use verify::measure::survey::Survey;
