@@ -122,9 +122,6 @@ const DOCUMENTS: [&str; 15] = [
 /// The folders of a package that no other package is built from.
 const OF_ITS_OWN_TESTS: [&str; 3] = ["tests/", "benches/", "examples/"];
 
-/// The manifests of the workspace and of the packages outside it.
-const MANIFESTS: [&str; 2] = ["Cargo.toml", "crates/contestants/Cargo.toml"];
-
 impl Affected {
     pub(crate) fn run() -> Result<ExitCode, String> {
         let mut changed = String::new();
@@ -168,12 +165,9 @@ struct Package {
 impl Packages {
     fn of_the_repository() -> Result<Self, String> {
         let mut packages = BTreeMap::new();
-        for manifest in MANIFESTS {
-            let metadata = metadata(manifest)?;
-            for package in metadata["packages"].as_array().into_iter().flatten() {
-                let (name, found) = Package::read(package).ok_or(format!("{manifest}: cargo names no folder"))?;
-                packages.insert(name, found);
-            }
+        for package in metadata()?["packages"].as_array().into_iter().flatten() {
+            let (name, found) = Package::read(package).ok_or("cargo metadata names no folder")?;
+            packages.insert(name, found);
         }
         Ok(Self(packages))
     }
@@ -239,16 +233,16 @@ impl Package {
     }
 }
 
-/// What cargo says of the packages of a manifest. It fetches nothing.
-fn metadata(manifest: &str) -> Result<Value, String> {
+/// What cargo says of the packages of the workspace. It fetches nothing.
+fn metadata() -> Result<Value, String> {
     let output = program::cargo()
-        .args(["metadata", "--no-deps", "--format-version", "1", "--manifest-path", manifest])
+        .args(["metadata", "--no-deps", "--format-version", "1"])
         .output()
         .map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
-        return Err(format!("{manifest}: {}", String::from_utf8_lossy(&output.stderr).trim()));
+        return Err(format!("cargo metadata: {}", String::from_utf8_lossy(&output.stderr).trim()));
     }
-    serde_json::from_slice(&output.stdout).map_err(|error| format!("{manifest}: cargo metadata: {error}"))
+    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo metadata: {error}"))
 }
 
 /// Whether `file` is one of these, or lies in one of those that end with a slash.
