@@ -93,12 +93,6 @@ impl Reference {
         Self::of_coin(inertia_ratio(&toss.coin), rates(&toss.launch), &flight, &quaternion(&toss.launch.attitude()))
     }
 
-    /// The same by plain numbers: the inertia ratio k, which may be that of no coin, ω (rad/s), the time (s) and the
-    /// attitude at launch. This is what a solver lands that takes other numbers than it was given.
-    pub fn of_numbers(k: f64, rate: [f64; 3], time: f64, attitude: [f64; 4]) -> Self {
-        Self::of_coin(big(k), rate.map(big), &big(time), &normalised(attitude.map(big)))
-    }
-
     fn of_coin(k: Big, [x, y, z]: [Big; 3], time: &Big, launch: &[Big; 4]) -> Self {
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();

@@ -80,8 +80,8 @@ fn largest_ratio(tosses: Tosses<'_, Body>, bounds: Range<f64>) -> (f64, usize) {
         if bound.is_infinite() || !bounds.contains(&bound) {
             continue;
         }
-        // Far below a bound. The last bits of a long flight would take more digits.
-        let landed = |toss: &Toss| state(toss, toss.launch.time_of_flight().into(), Stage::DoubleDouble, 1e-13);
+        // Far below the bound: more digits would take longer.
+        let landed = |toss: &Toss| state(toss, toss.launch.time_of_flight().into(), Stage::DoubleDouble, 1e-3 * bound);
         let error = (cos_tilt - tosses.solve(index, landed).unwrap().attitude.cos_tilt()).abs();
         assert!(error <= bound, "{:?}: {error:e} > {bound:e}", tosses.solve(index, |toss| Ok(*toss)));
         assert!(norm > 0.142, "(|θ4|² + |θ1|²)² = {norm}");
@@ -116,11 +116,11 @@ fn bodies() -> Vec<Body> {
 /// Short, ordinary and long flights of all bodies have errors within their bounds, of which the part `least` would not do.
 #[test]
 fn errors_are_within_their_bounds_and_not_far_below() {
-    for (speed, number, least) in [(0.02, 600, 0.03), (5.0, 600, 0.1), (5e5, 1500, 0.01)] {
+    for (speed, least) in [(0.02, 0.03), (5.0, 0.1), (5e5, 0.01)] {
         for body in bodies() {
-            let launches = Columns::new(number, 60.0, speed);
+            let launches = Columns::new(1500, 60.0, speed);
             let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::about_x(0.3)), 0.0..f64::MAX);
-            assert!(tried + 10 > number && largest > least, "{body:?}, {speed} m/s: {largest:e} of {tried}");
+            assert!(tried > 1490 && largest > least, "{body:?}, {speed} m/s: {largest:e} of {tried}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What authors of solvers get wrong, as a table. A hypothesis says which numbers a wrong program takes in place of those
-//! of the question, and how its answer is put right. If it is true, the answers put right are those of the reference to
-//! the other numbers.
+//! of the question, and how its answer is put right. If it is true, the answers put right are the landings of the other
+//! numbers, which may be those of no body.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,8 +9,6 @@ use dynamics::integrate::{OdeSystem, integrate};
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use numerics::scale::power_of_two_scale;
 use toss::{Attitude, Scheme, Stepping};
-
-use crate::measure::reference::Reference;
 
 /// The tolerance of a flight by numbers that are those of no coin.
 const TOLERANCE: f64 = 1e-11;
@@ -76,9 +74,10 @@ impl Numbers {
         if !given.iter().all(|number| number.is_finite()) {
             return None;
         }
-        // Flights of coins are long, and by the reference they need no steps.
+        // Flights of coins are long, and in closed form they need no steps.
         if c == 0.0 && a == -b {
-            return Some(Reference::of_numbers(1.0 - a, rate, time, attitude).attitude_error(answer));
+            let landed = self.launched() * self.precession(1.0 - a) * self.spin(a);
+            return Some(Attitude::from_components(components(landed)).ok()?.angle_to(answer));
         }
         let scale = power_of_two_scale(Vector3::from(rate).amax());
         let ([w, x, y, z], [p, q, r]) = (attitude, rate.map(|part| part / scale));
@@ -111,21 +110,15 @@ impl Numbers {
         Self { rate: self.rate.map(|part| part * by), ..self }
     }
 
-    /// The angular momentum of a coin divided by I1.
-    fn momentum(&self) -> Vector3<f64> {
+    /// The turn of a coin with the inertia ratio `k` by the precession about the angular momentum (BF at launch).
+    fn precession(&self, k: f64) -> Quaternion<f64> {
         let [x, y, z] = self.rate;
-        Vector3::new(x, y, self.k() * z)
+        UnitQuaternion::from_scaled_axis(Vector3::new(x, y, k * z) * self.time).into_inner()
     }
 
-    /// The turn of a coin by the precession about the angular momentum (BF at launch).
-    fn precession(&self) -> Quaternion<f64> {
-        UnitQuaternion::from_scaled_axis(self.momentum() * self.time).into_inner()
-    }
-
-    /// The turn of a coin about n by `times` its angle.
+    /// The turn about n by so many times the angle of ωz: a coin's is by 1 - k.
     fn spin(&self, times: f64) -> Quaternion<f64> {
-        let angle = times * (1.0 - self.k()) * self.rate[2] * self.time;
-        UnitQuaternion::from_scaled_axis(Vector3::z() * angle).into_inner()
+        UnitQuaternion::from_scaled_axis(Vector3::z() * (times * self.rate[2] * self.time)).into_inner()
     }
 
     fn launched(&self) -> Quaternion<f64> {
@@ -228,20 +221,20 @@ pub(super) const HYPOTHESES: [Hypothesis; 52] = [
     }),
     Hypothesis::of_question("its rate, or its time, is reversed", |numbers| numbers.with_rate(-1.0)),
     Hypothesis::of_answer("its spin about n is reversed", |numbers, answer| {
-        components(quaternion(answer) * numbers.spin(2.0))
+        components(quaternion(answer) * numbers.spin(2.0 * (1.0 - numbers.k())))
     }),
     Hypothesis::of_answer("its precession about the angular momentum is reversed", |numbers, answer| {
-        let (launched, precession) = (numbers.launched(), numbers.precession());
+        let (launched, precession) = (numbers.launched(), numbers.precession(numbers.k()));
         components(launched * precession * precession * launched.conjugate() * quaternion(answer))
     }),
     Hypothesis::of_answer("a spin about n is added, which it leaves out", |numbers, answer| {
-        components(quaternion(answer) * numbers.spin(1.0))
+        components(quaternion(answer) * numbers.spin(1.0 - numbers.k()))
     }),
     Hypothesis::of_answer(
         "the precession about the angular momentum is added, which it leaves out",
         |numbers, answer| {
             let launched = numbers.launched();
-            components(launched * numbers.precession() * launched.conjugate() * quaternion(answer))
+            components(launched * numbers.precession(numbers.k()) * launched.conjugate() * quaternion(answer))
         },
     ),
     Hypothesis::of_question("the rate is given to it in degrees per unit of time", |numbers| {

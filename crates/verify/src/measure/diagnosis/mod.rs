@@ -85,6 +85,10 @@ pub(crate) struct Asked {
     is_late: bool,
     allowed: Allowance,
     exact: Arc<Reference>,
+    /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
+    /// the answer divided by its norm.
+    errors: Option<[f64; 2]>,
+    is_right: bool,
 }
 
 /// What a wrong solver most likely does.
@@ -151,7 +155,13 @@ impl Asked {
         exact: Arc<Reference>,
     ) -> Self {
         let numbers = in_numbers.numbers();
-        Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact }
+        let errors = answer.as_ref().ok().and_then(|answer| errors_of(*answer, &exact, &allowed));
+        let has_norm = |answer: &[f64; 4]| {
+            let off = exact.cos_tilt_error(cos_tilt_as_answered(*answer));
+            NORMS.contains(&nalgebra::Vector4::from(*answer).norm()) && off <= allowed.cos_tilt
+        };
+        let is_right = errors.is_some_and(|[part, _]| part <= 1.0) && answer.as_ref().is_ok_and(has_norm);
+        Self { toss: *toss, question, numbers, line, answer, is_late: false, allowed, exact, errors, is_right }
     }
 
     /// The same launch, whose answer took too long if `is_late`.
@@ -159,18 +169,9 @@ impl Asked {
         Self { is_late, ..self }
     }
 
-    /// The larger one of the errors of cos θ and of the attitude, as a part of what is allowed, and the latter (rad), both of
-    /// the answer divided by its norm.
-    fn errors(&self) -> Option<[f64; 2]> {
-        let attitude = Attitude::from_components(*self.answer.as_ref().ok()?).ok()?;
-        let angle = self.exact.attitude_error(&attitude);
-        let cos_tilt = self.exact.cos_tilt_error(attitude.cos_tilt());
-        Some([(cos_tilt / self.allowed.cos_tilt).max(angle / self.allowed.attitude), angle])
-    }
-
     /// Whether it is right once it is divided by its norm.
     fn is_right_in_direction(&self) -> bool {
-        self.errors().is_some_and(|[part, _]| part <= 1.0)
+        self.errors.is_some_and(|[part, _]| part <= 1.0)
     }
 
     /// Whether it is no fault that there is no answer.
@@ -181,14 +182,6 @@ impl Asked {
     /// Whether it was asked, and not only given up before.
     fn is_asked(&self) -> bool {
         !self.answer.as_ref().is_err_and(|why| why.contains(GIVEN_UP))
-    }
-
-    fn is_right(&self) -> bool {
-        let has_norm = |answer: &[f64; 4]| {
-            let off = self.exact.cos_tilt_error(cos_tilt_as_answered(*answer));
-            NORMS.contains(&nalgebra::Vector4::from(*answer).norm()) && off <= self.allowed.cos_tilt
-        };
-        self.is_right_in_direction() && self.answer.as_ref().is_ok_and(has_norm)
     }
 
     /// The angle (rad) by which an answer may differ from what a hypothesis says.
@@ -231,6 +224,14 @@ impl Asked {
             expected: format!("{w:?},{x:?},{y:?},{z:?} (or its negative), cos θ = {cos_tilt:?}"),
         }
     }
+}
+
+/// The [`Asked::errors`] of an answer.
+fn errors_of(answer: [f64; 4], exact: &Reference, allowed: &Allowance) -> Option<[f64; 2]> {
+    let attitude = Attitude::from_components(answer).ok()?;
+    let angle = exact.attitude_error(&attitude);
+    let cos_tilt = exact.cos_tilt_error(attitude.cos_tilt());
+    Some([(cos_tilt / allowed.cos_tilt).max(angle / allowed.attitude), angle])
 }
 
 /// What the solver of `entry` most likely does wrong with each of its schemes, by those whose rows `fails` says to fail.
@@ -277,7 +278,7 @@ fn of_kind(
 ) -> Option<Diagnosis> {
     let asked = some_of(&launches[kind], one_in, tolerance, ask);
     // What is wrong for coins may be told apart by bodies.
-    let also = kind == 0 && !asked.iter().all(Asked::is_right);
+    let also = kind == 0 && !asked.iter().all(|one| one.is_right);
     let also = if also { some_of(&launches[1], ONE_IN, tolerance, ask) } else { Vec::new() };
     diagnosis(subject, KINDS[kind], asked, &also)
 }
@@ -302,7 +303,7 @@ fn diagnosis(subject: &str, kind: &str, mut asked: Vec<Asked>, also: &[Asked]) -
     }
     let is_mostly_silent = asked.iter().filter(|one| one.answer.is_err()).count() * 2 > asked.len();
     asked.retain(|one| is_mostly_silent || !one.is_declined());
-    let wrong: Vec<&Asked> = asked.iter().filter(|one| !one.is_right()).collect();
+    let wrong: Vec<&Asked> = asked.iter().filter(|one| !one.is_right).collect();
     let silent = wrong.iter().filter(|one| one.answer.is_err()).count();
     if wrong.is_empty() {
         return None;
@@ -326,9 +327,9 @@ fn diagnosis(subject: &str, kind: &str, mut asked: Vec<Asked>, also: &[Asked]) -
     let unexplained = asked.iter().zip(&explains).filter(|(_, explained)| **explained == Some(false));
     let unexplained: Vec<&Asked> = unexplained.map(|(one, _)| one).collect();
     let explains_all = unexplained.is_empty();
-    let is_wrong_beside = unexplained.iter().any(|one| !one.is_right());
+    let is_wrong_beside = unexplained.iter().any(|one| !one.is_right);
     let shown_of = if explains_all { &wrong } else { &unexplained };
-    let shown_of = shown_of.iter().filter(|one| !is_wrong_beside || !one.is_right());
+    let shown_of = shown_of.iter().filter(|one| !is_wrong_beside || !one.is_right);
     let example = shown_of.min_by(|a, b| a.size().partial_cmp(&b.size()).unwrap_or(Ordering::Equal))?.example();
     Some(Diagnosis {
         subject: subject.to_owned(),
@@ -351,7 +352,7 @@ struct Cause {
 impl Cause {
     /// One that explains no wrong answer.
     fn unexplained(words: String, asked: &[Asked]) -> Self {
-        Self { words, explains: asked.iter().map(|one| Some(one.is_right())).collect() }
+        Self { words, explains: asked.iter().map(|one| Some(one.is_right)).collect() }
     }
 
     /// One that explains what it does, in `words` with the number.
@@ -391,7 +392,7 @@ fn most_frequent_reason(asked: &[Asked]) -> (&str, usize) {
 fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
     let answered: Vec<&Asked> = asked.iter().filter(|one| one.answer.is_ok()).collect();
     // An answer that is nearly right is explained by every hypothesis that changes nothing there.
-    let is_far = |one: &&Asked| one.errors().is_none_or(|[_, angle]| angle > one.near());
+    let is_far = |one: &&Asked| one.errors.is_none_or(|[_, angle]| angle > one.near());
     let wrong: Vec<&Asked> = answered.iter().copied().filter(is_far).collect();
     let few: Vec<&Asked> = wrong.iter().copied().step_by((wrong.len() / TRIED).max(1)).collect();
     let also: Vec<&Asked> = also.iter().collect();
@@ -412,7 +413,7 @@ fn mistake(asked: &[Asked], also: &[Asked]) -> Option<Cause> {
 fn without_norm(asked: &[Asked]) -> Option<Cause> {
     let explains: Vec<_> = asked.iter().map(|one| Some(one.is_right_in_direction())).collect();
     let answered = asked.iter().filter(|one| one.answer.is_ok()).count();
-    let wrong = asked.iter().filter(|one| one.answer.is_ok() && !one.is_right()).count();
+    let wrong = asked.iter().filter(|one| one.answer.is_ok() && !one.is_right).count();
     let is_so = ((answered - count(&explains)) as f64) <= (1.0 - EXPLAINED) * wrong as f64;
     is_so.then(|| Cause::explaining("right if its quaternion is divided by its norm", explains))
 }
@@ -420,7 +421,7 @@ fn without_norm(asked: &[Asked]) -> Option<Cause> {
 /// An error that is merely larger than allowed, as of an integrator with too loose a tolerance or too long a step: in flights
 /// of moderate phase φ it is in proportion to 1 + φ, and in longer ones it grows at most by φ².
 fn rough(asked: &[Asked]) -> Option<Cause> {
-    let growth = |one: &Asked| Some((1.0 + Phases::new(&one.toss).ok()?.largest, one.errors()?));
+    let growth = |one: &Asked| Some((1.0 + Phases::new(&one.toss).ok()?.largest, one.errors?));
     let errors: Vec<Option<(f64, [f64; 2])>> = asked.iter().map(growth).collect();
     let moderate = errors.iter().flatten().filter(|(growth, _)| MODERATE.contains(growth));
     let mut of_moderate: Vec<(f64, f64)> = moderate.map(|(growth, [part, angle])| (angle / growth, *part)).collect();
@@ -483,7 +484,7 @@ fn split(asked: &[Asked]) -> Option<Cause> {
     let mut best: Option<(f64, String)> = None;
     for Feature(name, number) in &FEATURES {
         for sign in [1.0, -1.0] {
-            let of = |one: &Asked| (sign * number(&one.toss, &one.numbers), one.is_right());
+            let of = |one: &Asked| (sign * number(&one.toss, &one.numbers), one.is_right);
             // 0/0 is none.
             let mut sorted: Vec<(f64, bool)> = asked.iter().map(of).filter(|(number, _)| !number.is_nan()).collect();
             sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -516,7 +517,7 @@ fn split(asked: &[Asked]) -> Option<Cause> {
     }
     let (_, mut words) = best?;
     let (reason, silent) = most_frequent_reason(asked);
-    if silent > 0 && silent == asked.iter().filter(|one| !one.is_right()).count() {
+    if silent > 0 && silent == asked.iter().filter(|one| !one.is_right).count() {
         words += &format!("; no answer there: {reason}");
     }
     Some(Cause::unexplained(words, asked))

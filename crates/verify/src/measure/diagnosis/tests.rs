@@ -75,7 +75,7 @@ fn in_steps(row: &Row, product: fn(Q, Q) -> Q, euler: f64, per_radian: f64) -> Q
 
 /// The motion of a body by Euler's equations, ω' by the moments and ω.
 fn flown(row: &Row, moments: [f64; 3], euler: impl Fn([f64; 3], Vector3<f64>) -> Vector3<f64>) -> Q {
-    runge_kutta(row, 100.0, |q, rate| (q * Q::from_imag(rate) * 0.5, euler(moments, rate)))
+    runge_kutta(row, 50.0, |q, rate| (q * Q::from_imag(rate) * 0.5, euler(moments, rate)))
 }
 
 fn runge_kutta(row: &Row, per_radian: f64, slope: impl Fn(Q, Vector3<f64>) -> (Q, Vector3<f64>)) -> Q {
@@ -147,6 +147,10 @@ fn asked(toss: &Toss, error: f64, answer: &impl Fn(&Row) -> [f64; 4]) -> Option<
     let answer = answer.map(|answer| question.in_body(answer));
     let allowed = Allowance::by_estimate(error * (1.0 + largest) * growth);
     Some(Asked::new(toss, case::text(toss), &question, None, answer, allowed, EXACT.of(toss)?))
+}
+
+fn unanswered(asked: Asked, why: &str) -> Asked {
+    Asked { answer: Err(why.to_owned()), errors: None, is_right: false, ..asked }
 }
 
 #[test]
@@ -335,7 +339,7 @@ fn a_solver_without_answers_is_told_why() {
     let [launches, _] = launches().unwrap();
     let asked = |(index, toss): (usize, &Toss)| {
         let why = if index == 0 { "ended" } else { "is no longer asked: it ended" };
-        Asked { answer: Err(why.to_owned()), ..asked(toss, 1e-9, &|row| components(right(row))).unwrap() }
+        unanswered(asked(toss, 1e-9, &|row| components(right(row))).unwrap(), why)
     };
     let found = diagnosis("mine", KINDS[0], launches.iter().enumerate().map(asked).collect(), &[]).unwrap();
     assert!(found.explains_all && found.cause == "no answer to any of the launches: ended", "{found:?}");
@@ -362,8 +366,7 @@ fn launches_with_a_wrong_answer_or_none_are_told_from_the_others() {
             let once = |toss: &Toss| {
                 let one = asked(toss, 1e-7, &answer)?;
                 silent += usize::from(one.answer.is_err());
-                let given_up = Err(format!("{GIVEN_UP}hangs"));
-                Some(Asked { answer: if silent > most { given_up } else { one.answer }, ..one }.late(true))
+                Some(if silent > most { unanswered(one, &format!("{GIVEN_UP}hangs")) } else { one }.late(true))
             };
             diagnosis("mine", KINDS[0], coins.iter().filter_map(once).collect(), &[]).unwrap().cause
         };
