@@ -34,8 +34,13 @@ fn answers(recorded: &[Value]) -> Vec<Value> {
     })
 }
 
-/// Searches of many launches, which take a third of the time under an emulator. The other searches are shorter.
-const LONG: [&str; 2] = ["spread --rate 1,1,2.5 --speed 3 --heads 0.9999999999", "spread --rate 20,3,4"];
+/// Searches of many launches, which take half of the time under an emulator. The other searches are shorter.
+const LONG: [&str; 4] = [
+    "spread --rate 1,1,2.5 --speed 3 --heads 0.9999999999",
+    "spread --rate 20,3,4",
+    "spread --coin us-quarter --turn 38rev/s --psi 60deg",
+    "intervals --coin book --rate 1,2,30 --speed 0.1:8",
+];
 
 /// Whether another processor is not asked a line: its answer depends on the system's library, or it is refused before
 /// anything is computed, or it is asked as JSON as well, or long.
