@@ -24,7 +24,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("unfair-toss", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
     ("xtask", &[]),
     ("blackbox", &["toss", "dynamics"]),
-    ("unfair-toss-python", &["toss", "sampling", "exact", "dynamics"]),
+    ("unfair-toss-python", &["toss", "sampling", "exact", "dynamics", "whole-file"]),
     ("unfair-toss-fuzz", &["unfair-toss", "toss", "sampling", "dynamics"]),
     ("web", &["toss", "sampling", "exact", "dynamics"]),
 ];
