@@ -1,8 +1,8 @@
 //! What a wrong solver most likely does, told from its answers to launches of every kind: a known mistake that explains
 //! them, an error that is merely larger than allowed, or the launches on which alone it is right, or answers. If none of
-//! these explains all, the smallest question that is left is shown. The judge of all of it is the reference. A cause is a
-//! conjecture from these launches, and is told with how many of them it explains. Other bodies are asked for once coins are
-//! right.
+//! these explains all, the smallest question that is left is shown. The reference judges which answers are right; where a
+//! mistake lands is computed in f64. A cause is a conjecture from these launches, and is told with how many of them it
+//! explains. Other bodies are asked for once coins are right.
 
 mod hypotheses;
 
